@@ -14,6 +14,7 @@ constexpr double kApproach = 0.5;         // of the way to the contact distance,
 constexpr double kRecovery = 0.05;        // of the excess approach, that they separate per step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
 constexpr double kLeastFree = 0.05;       // of a contact's weights: the share of pinned nodes cannot be moved
+constexpr double kYield = 0.2;            // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 
 /// The least speed (m/s) along the normal of two features whose contact keeps them `reach` (m) apart, if they move at
@@ -220,7 +221,9 @@ void ContactSweep::warm_start(double scale) {
 
 void ContactSweep::sweep() {
   for (const Row& row : rows_) {
-    const Vec3 wanted = *row.impulse + (row.least_speed * row.normal - velocity_of(row)) / row.inverse_mass;
+    const double yield = row.is_glue ? kYield : 0;
+    const Vec3 wanted =
+        (*row.impulse + (row.least_speed * row.normal - velocity_of(row)) / row.inverse_mass) / (1 + yield);
     const Vec3 now = row.is_glue ? wanted : within_friction_cone(wanted, row.normal, row.friction);
     push(row, now - *row.impulse);
     *row.impulse = now;

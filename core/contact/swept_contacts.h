@@ -10,11 +10,11 @@ class SweptContacts {
  public:
   /// The bodies must outlive it. `glue` by rows of the group.
   SweptContacts(const Group& group, const World& world, std::vector<GluedPoint> glue)
-      : group_(group), near_(group, world), sweep_(group, std::move(glue)), guard_(near_) {}
+      : group_(group), near_(group, world, glue), sweep_(group, std::move(glue)), guard_(near_) {}
   /// For the same bodies, reusing the surfaces of `before`.
   SweptContacts(SweptContacts&& before, const World& world, std::vector<GluedPoint> glue)
       : group_(before.group_),
-        near_(group_, world, std::move(before.near_).take_trees()),
+        near_(group_, world, glue, std::move(before.near_).take_trees()),
         sweep_(group_, std::move(glue)),
         guard_(near_) {}
 

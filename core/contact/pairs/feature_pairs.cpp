@@ -50,10 +50,12 @@ AlignedBox box_around(SurfaceTree& tree, const std::vector<Feature>& features, i
 
 }  // namespace
 
-FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction)
+FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction,
+                           Joints joints)
     : trees_{a, b},
       bodies_(bodies),
       friction_(friction),
+      joints_(std::move(joints)),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)),
       nearest_{std::vector<Nearest>(a.skin().points.size()), std::vector<Nearest>(b.skin().points.size())},
       inside_{std::vector<Inside>(a.skin().points.size()), std::vector<Inside>(b.skin().points.size())},
@@ -85,11 +87,15 @@ bool FeaturePairs::clear(int list) {
   return true;
 }
 
-bool FeaturePairs::are_connected(std::size_t point, std::size_t other) const {
-  if (!is_self()) return false;
-  const SurfaceTree& tree = trees_[0];
-  const std::vector<ContactPoint>& points = tree.skin().points;
-  return share_a_node(tree.body(), points[point].brick, points[other].brick);
+bool FeaturePairs::are_connected(std::size_t side, int point, int other) const {
+  const SurfaceTree& ours = trees_[side];
+  const SurfaceTree& across = trees_[1 - side];
+  const int brick = ours.skin().points[point].brick;
+  const int other_brick = across.skin().points[other].brick;
+  if (is_self()) return share_a_node(ours.body(), brick, other_brick);
+  return std::any_of(joints_.begin(), joints_.end(), [&](const std::array<int, 2>& glued) {
+    return share_a_node(ours.body(), brick, glued[side]) && share_a_node(across.body(), other_brick, glued[1 - side]);
+  });
 }
 
 void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list) {
@@ -107,7 +113,10 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
       const auto& [a, b, c] = other.triangles[t];
       const std::array<Vec3, 3> corners{across.place_of(a), across.place_of(b), across.place_of(c)};
       if (!are_near(place, corners, margin)) continue;
-      if (are_connected(point, a) || are_connected(point, b) || are_connected(point, c)) continue;
+      if (std::any_of(other.triangles[t].begin(), other.triangles[t].end(),
+                      [&](int corner) { return are_connected(side, point, corner); })) {
+        continue;
+      }
       list.sleepers.push_back({.pair = {.count = 1, .corners = {point, a, b, c}, .first = side}});
     }
   }
@@ -129,7 +138,8 @@ void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearLi
     for (int e = first; e < last; ++e) {
       const auto& [c, d] = other.edges[e];
       if (!are_near(ends, std::array<Vec3, 2>{across.place_of(c), across.place_of(d)}, margin)) continue;
-      if (are_connected(a, c) || are_connected(a, d) || are_connected(b, c) || are_connected(b, d)) continue;
+      if (are_connected(0, a, c) || are_connected(0, a, d) || are_connected(0, b, c) || are_connected(0, b, d))
+        continue;
       list.sleepers.push_back({.pair = {.count = 2, .corners = {a, b, c, d}, .first = 0}});
     }
   }

@@ -9,12 +9,16 @@ namespace sprung {
 
 /// The points and triangles, and the edges, of two surfaces, or of one with itself, that may meet in the steps to come.
 /// Those further apart sleep until the front can no longer exclude that they have come closer by more than
-/// distance_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node, and
-/// edges one of which passes through a triangle at the other: they have crossed.
+/// distance_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node; of two,
+/// whose bricks share one with bricks glued together; and edges one of which passes through a triangle at the other:
+/// they have crossed.
 class FeaturePairs : private NearLists {
  public:
-  /// For the bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
-  FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction);
+  /// Bricks of the two surfaces, in that order.
+  using Joints = std::vector<std::array<int, 2>>;
+  /// For the bodies `bodies`; their trees, the same twice for one with itself, must outlive it. `joints`: bricks glued
+  /// together.
+  FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction, Joints joints = {});
   FeaturePairs(const FeaturePairs&) = delete;
   FeaturePairs& operator=(const FeaturePairs&) = delete;
 
@@ -71,7 +75,8 @@ class FeaturePairs : private NearLists {
   /// Turns a pair around whose point is inside. A point behind the triangle and beside it cannot be supported by it,
   /// but still must not cross it.
   void orient(AwakePair& pair, bool is_inside);
-  [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
+  /// Whether the bricks of two points, `point` of the surface `side`, are connected.
+  [[nodiscard]] bool are_connected(std::size_t side, int point, int other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
   /// How far (m) its two features may approach until the trees are followed again: along the normal that separates
@@ -92,6 +97,7 @@ class FeaturePairs : private NearLists {
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;
   double friction_;
+  Joints joints_;
   double brick_;  // m, of the finer of the two
   std::vector<NearList> lists_;
   std::vector<Sleeper*> awake_;

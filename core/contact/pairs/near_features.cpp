@@ -18,9 +18,21 @@ constexpr double kLeastStepsAhead = 2;  // ... this one and the next, whose cont
 constexpr double kSlack = 0.004;        // bricks that nodes may deviate from where their velocities take them ...
 constexpr double kMoreSlack = 4;        // times as far, each time that a step is checked again
 
+/// The bricks of bodies `a` and `b` that are glued together, each pair once.
+FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
+  FeaturePairs::Joints joints;
+  for (const GluedPoint& point : glue) {
+    if (point.bodies == std::array{a, b}) joints.push_back(point.bricks);
+    if (point.bodies == std::array{b, a}) joints.push_back({point.bricks[1], point.bricks[0]});
+  }
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  return joints;
+}
+
 }  // namespace
 
-NearFeatures::NearFeatures(const Group& group, const World& world, BodyTrees trees)
+NearFeatures::NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue, BodyTrees trees)
     : group_(group),
       brick_(smallest_brick(group)),
       trees_(std::move(trees.surfaces)),
@@ -43,7 +55,8 @@ NearFeatures::NearFeatures(const Group& group, const World& world, BodyTrees tre
     outlines_.push_back(std::make_unique<SurfaceTree>(outline_of(*group_[row]), *group_[row]));
   }
   const auto add = [&](std::size_t a, std::size_t b, double friction) {
-    pairs_.push_back(std::make_unique<FeaturePairs>(*trees_[a], *trees_[b], std::array{a, b}, friction));
+    pairs_.push_back(
+        std::make_unique<FeaturePairs>(*trees_[a], *trees_[b], std::array{a, b}, friction, joints_between(glue, a, b)));
   };
   for (std::size_t a = 0; a < group_.size(); ++a) {
     for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*outlines_[a], a)});

@@ -19,9 +19,9 @@ class NearFeatures {
     Trees surfaces;
     Trees outlines;  // see outline_of(); none where there are only obstacles with edges
   };
-  /// The bodies must outlive it. `trees`: of the same bodies with the same surfaces, from an earlier instance; or none.
-  /// Results do not depend on them.
-  NearFeatures(const Group& group, const World& world, BodyTrees trees = {});
+  /// The bodies must outlive it. `glue` by rows of the group; `trees`: of the same bodies with the same surfaces, from
+  /// an earlier instance; or none. Results do not depend on them.
+  NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue = {}, BodyTrees trees = {});
   [[nodiscard]] BodyTrees take_trees() &&;
   /// Whether the bodies still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces() const;
