@@ -9,7 +9,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kNear = 0.35;    // bricks within which features are listed
+constexpr double kNear = 0.35;    // bricks within which features are listed ...
+constexpr double kSeen = 3;       // ... and times as far, within which their distance is measured
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
 constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
@@ -22,30 +23,9 @@ bool is_beside(const AwakePair& pair) { return pair.weights.tail<3>().maxCoeff()
 
 const Vec3 kSkew(0.3713, 0.4832, 0.7931);  // of rays, which seldom meet an edge then
 
-/// Whether the boxes around two sets of points come within `margin` of each other.
-template <std::size_t N, std::size_t M>
-bool are_near(const std::array<Vec3, N>& a, const std::array<Vec3, M>& b, double margin) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto less = [axis](const Vec3& one, const Vec3& other) { return one[axis] < other[axis]; };
-    const auto [low_a, high_a] = std::minmax_element(a.begin(), a.end(), less);
-    const auto [low_b, high_b] = std::minmax_element(b.begin(), b.end(), less);
-    if ((*low_a)[axis] - (*high_b)[axis] > margin || (*low_b)[axis] - (*high_a)[axis] > margin) return false;
-  }
-  return true;
-}
-
-/// The box around the corners of some triangles or edges of a surface, and `margin` about it.
-template <class Feature>
-AlignedBox box_around(SurfaceTree& tree, const std::vector<Feature>& features, int first, int last, double margin) {
-  AlignedBox box;
-  for (int row = first; row < last; ++row) {
-    for (const int corner : features[row]) box.extend(tree.place_of(corner));
-  }
-  if (!box.isEmpty()) {
-    box.min().array() -= margin;
-    box.max().array() += margin;
-  }
-  return box;
+/// A lower bound of the distance between what is in two boxes: the largest along an axis.
+double least_distance(const AlignedBox& a, const AlignedBox& b) {
+  return std::max(0.0, (a.min() - b.max()).cwiseMax(b.min() - a.max()).maxCoeff());
 }
 
 }  // namespace
@@ -67,10 +47,10 @@ bool FeaturePairs::fill(const NearBricks& bricks) {
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));
   NearList& list = lists_[bricks.list];
   std::vector<Sleeper> before = std::move(list.sleepers);
-  list = {.block = bricks.block};
-  list_points(0, bricks.a, bricks.b, bricks.margin, list);
-  list_points(is_self() ? 0 : 1, bricks.b, bricks.a, bricks.margin, list);
-  list_edges(bricks.a, bricks.b, bricks.margin, list);
+  list = {.block = bricks.block, .margin = bricks.margin, .unlisted = kSeen * bricks.margin};
+  list_points(0, bricks.a, bricks.b, list);
+  list_points(is_self() ? 0 : 1, bricks.b, bricks.a, list);
+  list_edges(bricks.a, bricks.b, list);
   for (const Sleeper& old : before) {
     if (old.impulse.isZero(0)) continue;
     const auto known = std::find_if(list.sleepers.begin(), list.sleepers.end(), [&](const Sleeper& sleeper) {
@@ -98,49 +78,61 @@ bool FeaturePairs::are_connected(std::size_t side, int point, int other) const {
   });
 }
 
-void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list) {
+template <class Feature>
+AlignedBox FeaturePairs::find_boxes(SurfaceTree& tree, const std::vector<Feature>& features, int first, int last) {
+  boxes_.clear();
+  AlignedBox all;
+  for (int row = first; row < last; ++row) {
+    AlignedBox& box = boxes_.emplace_back();
+    for (const int corner : features[row]) box.extend(tree.place_of(corner));
+    all.extend(box);
+  }
+  return all;
+}
+
+void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of, NearList& list) {
   SurfaceTree& ours = tree(side);
   SurfaceTree& across = is_self() ? ours : tree(1 - side);
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
   const int first = other.first_triangle[triangles_of];
   const int last = other.first_triangle[triangles_of + 1];
-  const AlignedBox around = box_around(across, other.triangles, first, last, margin);
+  if (first == last) return;
+  const AlignedBox all = find_boxes(across, other.triangles, first, last);
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
-    const std::array<Vec3, 1> place{ours.place_of(point)};
-    if (!around.contains(place[0])) continue;
+    const AlignedBox box(ours.place_of(point));
+    if (least_distance(box, all) >= list.unlisted) continue;
     for (int t = first; t < last; ++t) {
+      const double distance = least_distance(box, boxes_[t - first]);
+      if (distance >= list.unlisted) continue;
       const auto& [a, b, c] = other.triangles[t];
-      const std::array<Vec3, 3> corners{across.place_of(a), across.place_of(b), across.place_of(c)};
-      if (!are_near(place, corners, margin)) continue;
-      if (std::any_of(other.triangles[t].begin(), other.triangles[t].end(),
-                      [&](int corner) { return are_connected(side, point, corner); })) {
-        continue;
-      }
-      list.sleepers.push_back({.pair = {.count = 1, .corners = {point, a, b, c}, .first = side}});
+      if (are_connected(side, point, a) || are_connected(side, point, b) || are_connected(side, point, c)) continue;
+      list.add({.count = 1, .corners = {point, a, b, c}, .first = side}, distance);
     }
   }
 }
 
-void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearList& list) {
+void FeaturePairs::list_edges(int edges_of, int others_of, NearList& list) {
   SurfaceTree& ours = tree(0);
   SurfaceTree& across = tree(1);
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
   const int first = other.first_edge[others_of];
   const int last = other.first_edge[others_of + 1];
-  const AlignedBox around = box_around(across, other.edges, first, last, margin);
+  if (first == last) return;
+  const AlignedBox all = find_boxes(across, other.edges, first, last);
   for (int edge = skin.first_edge[edges_of]; edge < skin.first_edge[edges_of + 1]; ++edge) {
     const auto& [a, b] = skin.edges[edge];
-    const std::array<Vec3, 2> ends{ours.place_of(a), ours.place_of(b)};
-    AlignedBox box(ends[0]);
-    if (!around.intersects(box.extend(ends[1]))) continue;
+    AlignedBox box(ours.place_of(a));
+    box.extend(ours.place_of(b));
+    if (least_distance(box, all) >= list.unlisted) continue;
     for (int e = first; e < last; ++e) {
+      const double distance = least_distance(box, boxes_[e - first]);
+      if (distance >= list.unlisted) continue;
       const auto& [c, d] = other.edges[e];
-      if (!are_near(ends, std::array<Vec3, 2>{across.place_of(c), across.place_of(d)}, margin)) continue;
-      if (are_connected(0, a, c) || are_connected(0, a, d) || are_connected(0, b, c) || are_connected(0, b, d))
-        continue;
-      list.sleepers.push_back({.pair = {.count = 2, .corners = {a, b, c, d}, .first = 0}});
+      if (are_connected(0, a, c) || are_connected(0, a, d)) continue;
+      if (are_connected(0, b, c) || are_connected(0, b, d)) continue;
+      list.add({.count = 2, .corners = {a, b, c, d}, .first = 0}, distance);
     }
   }
 }

@@ -37,7 +37,17 @@ class FeaturePairs : private NearLists {
   struct NearList {
     std::size_t block = 0;
     double first_wake = 0;  // of its sleepers
+    double margin = 0;      // m, within which features are listed
+    double unlisted = 0;    // m: all others are at least that far apart
     std::vector<Sleeper> sleepers{};
+
+    void add(const FeaturePair& pair, double distance) {
+      if (distance > margin) {
+        unlisted = std::min(unlisted, distance);
+      } else {
+        sleepers.push_back({.pair = pair});
+      }
+    }
   };
   /// By point of a skin: the pair that is nearest to it.
   struct Nearest {
@@ -54,13 +64,17 @@ class FeaturePairs : private NearLists {
   };
 
   bool fill(const NearBricks& bricks) override;
+  double budget(const NearBricks& bricks) override { return lists_[bricks.list].unlisted; }
   bool clear(int list) override;
   void clear() override { lists_.clear(); }
 
   [[nodiscard]] bool is_self() const { return &trees_[0].get() == &trees_[1].get(); }
   [[nodiscard]] SurfaceTree& tree(std::size_t side) { return trees_[side]; }
-  void list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list);
-  void list_edges(int edges_of, int others_of, double margin, NearList& list);
+  /// Finds the boxes around the corners of some triangles or edges; returns the box around all.
+  template <class Feature>
+  [[nodiscard]] AlignedBox find_boxes(SurfaceTree& tree, const std::vector<Feature>& features, int first, int last);
+  void list_points(std::size_t side, int points_of, int triangles_of, NearList& list);
+  void list_edges(int edges_of, int others_of, NearList& list);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
   /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
   /// of its last if it is 2.
@@ -100,6 +114,7 @@ class FeaturePairs : private NearLists {
   Joints joints_;
   double brick_;  // m, of the finer of the two
   std::vector<NearList> lists_;
+  std::vector<AlignedBox> boxes_;  // see find_boxes()
   std::vector<Sleeper*> awake_;
   std::vector<Woken> woken_;
   std::vector<AwakePair> measured_;

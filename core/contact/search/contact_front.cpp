@@ -117,8 +117,7 @@ void ContactFront::look(int a, int b, int list) {
     return keep(a, b, std::max(kTurned * turn * brick_, distance), -1);
   }
   if (!are_leaves) return split(a, b);
-  const double margin = std::max(margin_, needed);
-  keep(a, b, margin, fill_list(a, b, margin, list));
+  fill_list(a, b, std::max(margin_, needed), list);
 }
 
 void ContactFront::split(int a, int b) {
@@ -138,19 +137,20 @@ void ContactFront::split(int a, int b) {
   }
 }
 
-int ContactFront::fill_list(int a, int b, double margin, int list) {
+void ContactFront::fill_list(int a, int b, double margin, int list) {
   if (list < 0) {
     if (free_lists_.empty()) free_lists_.push_back(list_count_++);
     list = free_lists_.back();
     free_lists_.pop_back();
   }
-  const bool changed = lists_.fill({.list = list,
-                                    .a = a_.brick_of(a_.nodes()[a]),
-                                    .b = b_.brick_of(b_.nodes()[b]),
-                                    .margin = margin,
-                                    .block = block_of(a, b)});
+  const NearBricks bricks{.list = list,
+                          .a = a_.brick_of(a_.nodes()[a]),
+                          .b = b_.brick_of(b_.nodes()[b]),
+                          .margin = margin,
+                          .block = block_of(a, b)};
+  const bool changed = lists_.fill(bricks);
   has_changed_ = has_changed_ || changed;
-  return list;
+  keep(a, b, lists_.budget(bricks), list);
 }
 
 }  // namespace sprung

@@ -27,6 +27,8 @@ class NearLists {
 
   /// Refills a list; its number is at most one more than any before. Returns whether it changed.
   virtual bool fill(const NearBricks& bricks) = 0;
+  /// How far (m) bricks may approach before their list must be refilled: at least `margin`.
+  [[nodiscard]] virtual double budget(const NearBricks& bricks) { return bricks.margin; }
   /// Empties one list. Returns whether it changed.
   virtual bool clear(int list) = 0;
   /// Removes all lists.
@@ -97,7 +99,7 @@ class ContactFront {
   /// Stores the replacements of a pair of subtrees that is due; `list`: its former list.
   void look(int a, int b, int list);
   void split(int a, int b);
-  [[nodiscard]] int fill_list(int a, int b, double margin, int list);
+  void fill_list(int a, int b, double margin, int list);
 
   SurfaceTree& a_;
   SurfaceTree& b_;
