@@ -13,7 +13,7 @@ void ContactStates::begin_frame(World& world, const std::vector<std::vector<std:
     GroupContacts& contacts = kept[rows];
     const auto known = by_group_.find(rows);
     if (world.guards_crossings) {
-      const bool is_known = known != by_group_.end() && known->second.swept && known->second.swept->is_of(group);
+      const bool is_known = known != by_group_.end() && known->second.swept && known->second.swept->is_of(group, world);
       std::vector<GluedPoint> glue = glue_within(world, rows);
       contacts.swept = is_known
                            ? std::make_shared<SweptContacts>(std::move(*known->second.swept), world, std::move(glue))

@@ -14,12 +14,14 @@ class SweptContacts {
   /// For the same bodies, reusing the surfaces of `before`.
   SweptContacts(SweptContacts&& before, const World& world, std::vector<GluedPoint> glue)
       : group_(before.group_),
-        near_(group_, world, glue, std::move(before.near_).take_trees()),
+        near_(group_, world, glue, std::move(before.near_).take_surfaces()),
         sweep_(group_, std::move(glue)),
         guard_(near_) {}
 
-  /// Whether it was made for these bodies, as they are.
-  [[nodiscard]] bool is_of(const Group& group) const { return group == group_ && near_.is_of_surfaces(); }
+  /// Whether it was made for these bodies and obstacles, as they are.
+  [[nodiscard]] bool is_of(const Group& group, const World& world) const {
+    return group == group_ && near_.is_of_surfaces(world);
+  }
 
   /// Changes the bodies' velocities so that a step of dt satisfies every constraint. `inverse_masses` by body of the
   /// group and node, 1/kg, 0 for pinned nodes; `elapsed`: since the obstacles had the world's poses, s.

@@ -36,28 +36,35 @@ class MeshDistance {
 };
 
 /// Solid where y < 0.
-struct SolidHalfSpace {};
+struct SolidHalfSpace {
+  bool operator==(const SolidHalfSpace&) const = default;
+};
 /// Centred at the origin; half side lengths, m.
 struct SolidBox {
   Vec3 half{0.5, 0.5, 0.5};
+  bool operator==(const SolidBox&) const = default;
 };
 /// Around the origin, m.
 struct SolidBall {
   double radius = 0.5;
+  bool operator==(const SolidBall&) const = default;
 };
 /// About the y axis, from -half_length to half_length without its round ends, m.
 struct SolidCapsule {
   double radius = 0.25;
   double half_length = 0.25;
+  bool operator==(const SolidCapsule&) const = default;
 };
 /// About the y axis, from -half_length to half_length, m.
 struct SolidCylinder {
   double radius = 0.25;
   double half_length = 0.5;
+  bool operator==(const SolidCylinder&) const = default;
 };
 /// Inside a closed mesh.
 struct MeshSolid {
   std::shared_ptr<const MeshDistance> distance;
+  bool operator==(const MeshSolid&) const = default;
 };
 
 /// In the obstacle's own frame.

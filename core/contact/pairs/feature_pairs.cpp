@@ -10,7 +10,7 @@ namespace sprung {
 namespace {
 
 constexpr double kNear = 0.35;    // bricks within which features are listed ...
-constexpr double kSeen = 3;       // ... and times as far, within which their distance is measured
+constexpr double kSeen = 2;       // ... and times as far, within which their distance is measured
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
 constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point

@@ -32,58 +32,59 @@ FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::si
 
 }  // namespace
 
-NearFeatures::NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue, BodyTrees trees)
-    : group_(group),
-      brick_(smallest_brick(group)),
-      trees_(std::move(trees.surfaces)),
-      outlines_(std::move(trees.outlines)) {
+NearFeatures::NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue,
+                           Surfaces surfaces)
+    : group_(group), brick_(smallest_brick(group)), surfaces_(std::move(surfaces)) {
   each_tree([](SurfaceTree& tree) { tree.begin(); });
   std::vector<std::size_t> smooth;
   for (std::size_t row = 0; row < world.obstacles.size(); ++row) {
-    std::optional<SoftBody> surface = obstacle_surface(world.obstacles[row], brick_);
-    if (!surface) {
-      smooth.push_back(row);
-      continue;
-    }
-    obstacles_.push_back(std::make_unique<SoftBody>(std::move(*surface)));
-    obstacle_rows_.push_back(row);
+    const Shape& shape = world.obstacles[row].shape;
+    shapes_.push_back(shape);
+    (has_edges(shape) ? obstacle_rows_ : smooth).push_back(row);
   }
-  for (std::size_t row = trees_.size(); row < group_.size() + obstacles_.size(); ++row) {
-    trees_.push_back(std::make_unique<SurfaceTree>(contact_surface_of(body(row)), body(row)));
-  }
-  for (std::size_t row = outlines_.size(); row < group_.size() && !smooth.empty(); ++row) {
-    outlines_.push_back(std::make_unique<SurfaceTree>(outline_of(*group_[row]), *group_[row]));
-  }
+  if (surfaces_.trees.empty()) make_surfaces(world, !smooth.empty());
+  const Trees& trees = surfaces_.trees;
+  const Trees& outlines = surfaces_.outlines;
   const auto add = [&](std::size_t a, std::size_t b, double friction) {
     pairs_.push_back(
-        std::make_unique<FeaturePairs>(*trees_[a], *trees_[b], std::array{a, b}, friction, joints_between(glue, a, b)));
+        std::make_unique<FeaturePairs>(*trees[a], *trees[b], std::array{a, b}, friction, joints_between(glue, a, b)));
   };
   for (std::size_t a = 0; a < group_.size(); ++a) {
-    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*outlines_[a], a)});
+    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*outlines[a], a)});
     if (group_[a]->contact.with_itself) add(a, a, group_[a]->contact.friction);
     for (std::size_t b = a + 1; b < group_.size() && world.bodies_collide; ++b) {
       add(a, b, std::sqrt(group_[a]->contact.friction * group_[b]->contact.friction));
     }
-    for (std::size_t b = group_.size(); b < trees_.size(); ++b) add(a, b, body(b).contact.friction);
+    for (std::size_t i = 0; i < obstacle_rows_.size(); ++i) {
+      add(a, group_.size() + i, world.obstacles[obstacle_rows_[i]].friction);
+    }
   }
 }
 
-NearFeatures::BodyTrees NearFeatures::take_trees() && {
-  trees_.resize(group_.size());
-  return {.surfaces = std::move(trees_), .outlines = std::move(outlines_)};
+void NearFeatures::make_surfaces(const World& world, bool with_outlines) {
+  for (const std::size_t row : obstacle_rows_) {
+    surfaces_.obstacles.push_back(std::make_unique<SoftBody>(obstacle_surface(world.obstacles[row], brick_)));
+  }
+  for (std::size_t row = 0; row < group_.size() + obstacle_rows_.size(); ++row) {
+    surfaces_.trees.push_back(std::make_unique<SurfaceTree>(contact_surface_of(body(row)), body(row)));
+  }
+  for (std::size_t row = 0; row < group_.size() && with_outlines; ++row) {
+    surfaces_.outlines.push_back(std::make_unique<SurfaceTree>(outline_of(body(row)), body(row)));
+  }
 }
 
-bool NearFeatures::is_of_surfaces() const {
+bool NearFeatures::is_of_surfaces(const World& world) const {
   for (std::size_t row = 0; row < group_.size(); ++row) {
     const ContactSkin& contact = group_[row]->contact;
-    if (contact.surface.get() != &trees_[row]->skin()) return false;
-    if (row < outlines_.size() && contact.outline.get() != &outlines_[row]->skin()) return false;
+    if (contact.surface.get() != &surfaces_.trees[row]->skin()) return false;
+    if (!surfaces_.outlines.empty() && contact.outline.get() != &surfaces_.outlines[row]->skin()) return false;
   }
-  return true;
+  return std::equal(shapes_.begin(), shapes_.end(), world.obstacles.begin(), world.obstacles.end(),
+                    [](const Shape& shape, const Obstacle& obstacle) { return shape == obstacle.shape; });
 }
 
 SoftBody& NearFeatures::body(std::size_t row) const {
-  return row < group_.size() ? *group_[row] : *obstacles_[row - group_.size()];
+  return row < group_.size() ? *group_[row] : *surfaces_.obstacles[row - group_.size()];
 }
 
 Vec3 NearFeatures::known_velocity(const AwakePair& pair, int corner) {
@@ -110,8 +111,8 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
   rechecks_ = 0;
   poses_.clear();
   for (const Obstacle& obstacle : world.obstacles) poses_.push_back(pose_after(obstacle, elapsed));
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *obstacles_[i]);
+  for (std::size_t i = 0; i < surfaces_.obstacles.size(); ++i) {
+    move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *surfaces_.obstacles[i]);
   }
   if (seen_.empty()) predict(world, dt, kSlack);
   measure(world);
@@ -126,12 +127,15 @@ bool NearFeatures::recheck(const World& world, double dt) {
 
 double NearFeatures::deviation(double dt) const {
   if (seen_.empty() || since_look_ + dt > horizon_ * (1 + 1e-9)) return std::numeric_limits<double>::infinity();
+  const Trees& trees = surfaces_.trees;
+  const Trees& outlines = surfaces_.outlines;
   double furthest = 0;
   for (std::size_t row = 0; row < seen_.size(); ++row) {
     const Body& now = body(row);
     const Seen& seen = seen_[row];
     const auto off = now.positions + dt * now.velocities - seen.positions - (since_look_ + dt) * seen.velocities;
-    const double spread = std::max(trees_[row]->spread(), row < outlines_.size() ? outlines_[row]->spread() : 0);
+    double spread = trees[row]->spread();
+    if (row < outlines.size()) spread = std::max(spread, outlines[row]->spread());
     furthest = std::max(furthest, spread * std::sqrt(off.rowwise().squaredNorm().maxCoeff()));
   }
   return furthest / brick_;
@@ -139,16 +143,16 @@ double NearFeatures::deviation(double dt) const {
 
 void NearFeatures::predict(const World& world, double dt, double slack) {
   double fastest = 0;
-  for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
+  for (const auto& tree : surfaces_.trees) fastest = std::max(fastest, tree->fastest());
   const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));
   horizon_ = dt * std::clamp(steps, kLeastStepsAhead, kMostStepsAhead);
   slack_ = slack;
   since_look_ = 0;
-  seen_.resize(trees_.size());
-  tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t row) {
+  seen_.resize(surfaces_.trees.size());
+  tbb::parallel_for(std::size_t{0}, surfaces_.trees.size(), [&](std::size_t row) {
     seen_[row] = {body(row).positions, body(row).velocities};
-    trees_[row]->follow(horizon_, slack_ * brick_);
-    if (row < outlines_.size()) outlines_[row]->follow(horizon_, slack_ * brick_);
+    surfaces_.trees[row]->follow(horizon_, slack_ * brick_);
+    if (row < surfaces_.outlines.size()) surfaces_.outlines[row]->follow(horizon_, slack_ * brick_);
   });
   for (const auto& pairs : pairs_) pairs->wake();
   for (Against& against : against_) {

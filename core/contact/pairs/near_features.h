@@ -14,17 +14,18 @@ namespace sprung {
 class NearFeatures {
  public:
   using Trees = std::vector<std::unique_ptr<SurfaceTree>>;
-  /// By body.
-  struct BodyTrees {
-    Trees surfaces;
-    Trees outlines;  // see outline_of(); none where there are only obstacles with edges
+  struct Surfaces {
+    std::vector<std::unique_ptr<SoftBody>> obstacles;  // those with edges
+    Trees trees;                                       // of the bodies, then of these
+    Trees outlines;                                    // of the bodies, see outline_of(), if others have none
   };
-  /// The bodies must outlive it. `glue` by rows of the group; `trees`: of the same bodies with the same surfaces, from
-  /// an earlier instance; or none. Results do not depend on them.
-  NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue = {}, BodyTrees trees = {});
-  [[nodiscard]] BodyTrees take_trees() &&;
-  /// Whether the bodies still have the same surfaces.
-  [[nodiscard]] bool is_of_surfaces() const;
+  /// The bodies must outlive it. `glue` by rows of the group; `surfaces`: of the same bodies and obstacles, from an
+  /// earlier instance; or none. Results do not depend on them.
+  NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue = {},
+               Surfaces surfaces = {});
+  [[nodiscard]] Surfaces take_surfaces() && { return std::move(surfaces_); }
+  /// Whether bodies and obstacles still have the same surfaces.
+  [[nodiscard]] bool is_of_surfaces(const World& world) const;
 
   /// Measures the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`: since the obstacles had
   /// the world's poses, s.
@@ -64,15 +65,15 @@ class NearFeatures {
   /// Those of its points, or of its contact surface.
   [[nodiscard]] SurfaceTree& tree_of(const AwakePair& pair, int corner) const {
     const std::size_t row = pair.body_of(corner);
-    return pair.bodies[1] == AwakePair::kNoBody ? *outlines_[row] : *trees_[row];
+    return pair.bodies[1] == AwakePair::kNoBody ? *surfaces_.outlines[row] : *surfaces_.trees[row];
   }
   [[nodiscard]] const ContactPoint& point_of(const AwakePair& pair, int corner) const {
     return tree_of(pair, corner).skin().points[pair.pair.corners[corner]];
   }
   template <class Visit>
   void each_tree(const Visit& visit) const {
-    for (const auto& tree : trees_) visit(*tree);
-    for (const auto& tree : outlines_) visit(*tree);
+    for (const auto& tree : surfaces_.trees) visit(*tree);
+    for (const auto& tree : surfaces_.outlines) visit(*tree);
   }
   /// A body and an obstacle without edges.
   struct Against {
@@ -80,6 +81,7 @@ class NearFeatures {
     ShapePairs pairs;
   };
 
+  void make_surfaces(const World& world, bool with_outlines);
   /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
   [[nodiscard]] double deviation(double dt) const;
   /// `slack`: how far nodes may deviate from the prediction, bricks.
@@ -87,11 +89,10 @@ class NearFeatures {
   void measure(const World& world);
 
   Group group_;
-  std::vector<std::unique_ptr<SoftBody>> obstacles_;  // the surfaces of those with edges
-  std::vector<std::size_t> obstacle_rows_;            // in the world
-  double brick_;                                      // m
-  Trees trees_;                                       // of the bodies, then of the obstacles
-  Trees outlines_;                                    // of the bodies, if there are obstacles without edges
+  std::vector<Shape> shapes_;               // of the obstacles
+  std::vector<std::size_t> obstacle_rows_;  // in the world, of those with edges
+  double brick_;                            // m
+  Surfaces surfaces_;
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
   std::vector<Against> against_;
   std::vector<Pose> poses_;  // of all obstacles, in this step

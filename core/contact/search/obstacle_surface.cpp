@@ -55,26 +55,29 @@ SurfaceMesh prism_mesh(const SolidCylinder& cylinder) {
   return mesh;
 }
 
-std::optional<SurfaceMesh> mesh_of(const Shape& shape) {
+SurfaceMesh mesh_of(const Shape& shape) {
   if (const auto* box = std::get_if<SolidBox>(&shape)) return box_mesh(box->half);
   if (const auto* cylinder = std::get_if<SolidCylinder>(&shape)) return prism_mesh(*cylinder);
-  const auto* solid = std::get_if<MeshSolid>(&shape);
-  if (solid == nullptr) return std::nullopt;
+  const MeshDistance& solid = *std::get<MeshSolid>(shape).distance;
   SurfaceMesh mesh;
-  mesh.positions = solid->distance->positions();
-  mesh.triangles = solid->distance->triangles();
+  mesh.positions = solid.positions();
+  mesh.triangles = solid.triangles();
   return mesh;
 }
 
 }  // namespace
 
-std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_size) {
-  std::optional<SurfaceMesh> mesh = mesh_of(obstacle.shape);
-  if (!mesh) return std::nullopt;
-  mesh->parts = {{.name = "", .first_triangle = 0, .triangle_count = int(mesh->triangles.rows())}};
-  const Vec3 low = mesh->positions.colwise().minCoeff();
-  const double extent = (mesh->positions.rowwise() - low.transpose()).maxCoeff();
-  const Skin skin = make_skin(*mesh, {.max_edge = std::max(kLongestEdge * brick_size, extent / kMostAcross)});
+bool has_edges(const Shape& shape) {
+  return std::holds_alternative<SolidBox>(shape) || std::holds_alternative<SolidCylinder>(shape) ||
+         std::holds_alternative<MeshSolid>(shape);
+}
+
+SoftBody obstacle_surface(const Obstacle& obstacle, double brick_size) {
+  SurfaceMesh mesh = mesh_of(obstacle.shape);
+  mesh.parts = {{.name = "", .first_triangle = 0, .triangle_count = int(mesh.triangles.rows())}};
+  const Vec3 low = mesh.positions.colwise().minCoeff();
+  const double extent = (mesh.positions.rowwise() - low.transpose()).maxCoeff();
+  const Skin skin = make_skin(mesh, {.max_edge = std::max(kLongestEdge * brick_size, extent / kMostAcross)});
 
   SoftBody surface;
   BrickGrid& grid = surface.grid;
@@ -106,7 +109,6 @@ std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_
   surface.rest_positions = grid.rest_positions();
   surface.positions = surface.rest_positions;
   surface.velocities = Points::Zero(grid.node_count(), 3);
-  surface.contact.friction = obstacle.friction;
   surface.contact.with_itself = false;
   return surface;
 }

@@ -69,8 +69,8 @@ int run_and_count(World& world, double duration, double fps = 100) {
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   std::vector<std::unique_ptr<SoftBody>> obstacles;
   for (const Obstacle& obstacle : world.obstacles) {
-    if (auto surface = obstacle_surface(obstacle, 0.02)) {
-      obstacles.push_back(std::make_unique<SoftBody>(std::move(*surface)));
+    if (has_edges(obstacle.shape)) {
+      obstacles.push_back(std::make_unique<SoftBody>(obstacle_surface(obstacle, 0.02)));
     }
   }
   int count = 0;

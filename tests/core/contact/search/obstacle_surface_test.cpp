@@ -17,18 +17,17 @@ TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
   box.pose.translation = Vec3(1, 2, 3);
   box.velocity = Vec3(1, 0, 0);
   box.spin = Vec3(0, 2, 0);
-  std::optional<SoftBody> surface = obstacle_surface(box, 0.02);
-  ASSERT_TRUE(surface);
-  move_surface(box, 0.1, 0.01, *surface);
-  const ContactSurface& skin = contact_surface_of(*surface);
+  SoftBody surface = obstacle_surface(box, 0.02);
+  move_surface(box, 0.1, 0.01, surface);
+  const ContactSurface& skin = contact_surface_of(surface);
   const Pose pose = pose_after(box, 0.1);
   const Pose next = pose_after(box, 0.11);
   std::vector<Vec3> positions;
   double furthest = 0;
   for (const ContactPoint& point : skin.points) {
-    positions.push_back(carried(*surface, point, surface->positions));
+    positions.push_back(carried(surface, point, surface.positions));
     furthest = std::max(furthest, std::abs(signed_distance(box.shape, pose, positions.back()).distance));
-    const Vec3 moved = positions.back() + 0.01 * carried(*surface, point, surface->velocities);
+    const Vec3 moved = positions.back() + 0.01 * carried(surface, point, surface.velocities);
     furthest = std::max(furthest, std::abs(signed_distance(box.shape, next, moved).distance));
   }
   EXPECT_LT(furthest, 1e-12);
@@ -45,11 +44,10 @@ TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
 TEST(ObstacleSurface, OfACylinderIsAPrismWithinIt) {
   Obstacle cylinder;
   cylinder.shape = SolidCylinder{0.1, 0.05};
-  std::optional<SoftBody> surface = obstacle_surface(cylinder, 0.02);
-  ASSERT_TRUE(surface);
-  const ContactSurface& skin = contact_surface_of(*surface);
+  SoftBody surface = obstacle_surface(cylinder, 0.02);
+  const ContactSurface& skin = contact_surface_of(surface);
   double volume = 0;
-  const auto place = [&](int point) { return carried(*surface, skin.points[point], surface->positions); };
+  const auto place = [&](int point) { return carried(surface, skin.points[point], surface.positions); };
   for (const auto& [a, b, c] : skin.triangles) volume += place(a).dot(place(b).cross(place(c))) / 6;
   EXPECT_NEAR(volume, std::numbers::pi * 0.1 * 0.1 * 0.1, 0.002 * std::numbers::pi * 0.1 * 0.1 * 0.1);
   for (int point = 0; point < isize(skin.points); ++point) {
@@ -62,7 +60,9 @@ TEST(ObstacleSurface, OfACylinderIsAPrismWithinIt) {
 TEST(ObstacleSurface, OthersHaveNone) {
   Obstacle ball;
   ball.shape = SolidBall{0.1};
-  EXPECT_FALSE(obstacle_surface(ball, 0.02));
+  EXPECT_FALSE(has_edges(ball.shape));
+  EXPECT_FALSE(has_edges(level_ground(0).shape));
+  EXPECT_TRUE(has_edges(SolidBox{}));
 }
 
 }  // namespace
