@@ -23,11 +23,6 @@ bool is_beside(const AwakePair& pair) { return pair.weights.tail<3>().maxCoeff()
 
 const Vec3 kSkew(0.3713, 0.4832, 0.7931);  // of rays, which seldom meet an edge then
 
-/// A lower bound of the distance between what is in two boxes: the largest along an axis.
-double least_distance(const AlignedBox& a, const AlignedBox& b) {
-  return std::max(0.0, (a.min() - b.max()).cwiseMax(b.min() - a.max()).maxCoeff());
-}
-
 }  // namespace
 
 FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction,
@@ -101,9 +96,9 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
   const AlignedBox all = find_boxes(across, other.triangles, first, last);
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
     const AlignedBox box(ours.place_of(point));
-    if (least_distance(box, all) >= list.unlisted) continue;
+    if (box.exteriorDistance(all) >= list.unlisted) continue;
     for (int t = first; t < last; ++t) {
-      const double distance = least_distance(box, boxes_[t - first]);
+      const double distance = box.exteriorDistance(boxes_[t - first]);
       if (distance >= list.unlisted) continue;
       const auto& [a, b, c] = other.triangles[t];
       if (are_connected(side, point, a) || are_connected(side, point, b) || are_connected(side, point, c)) continue;
@@ -125,9 +120,9 @@ void FeaturePairs::list_edges(int edges_of, int others_of, NearList& list) {
     const auto& [a, b] = skin.edges[edge];
     AlignedBox box(ours.place_of(a));
     box.extend(ours.place_of(b));
-    if (least_distance(box, all) >= list.unlisted) continue;
+    if (box.exteriorDistance(all) >= list.unlisted) continue;
     for (int e = first; e < last; ++e) {
-      const double distance = least_distance(box, boxes_[e - first]);
+      const double distance = box.exteriorDistance(boxes_[e - first]);
       if (distance >= list.unlisted) continue;
       const auto& [c, d] = other.edges[e];
       if (are_connected(0, a, c) || are_connected(0, a, d)) continue;
