@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprung {
 namespace {
@@ -11,6 +12,7 @@ constexpr int kImpulseRounds = 12;     // of impulses between corners ...
 constexpr int kSlowRounds = 36;        // ... then, up to here, of nodes that are slowed down ...
 constexpr int kMostRounds = 400;       // ... and of nodes that move as one, more from round to round
 constexpr double kShareOfEach = 0.45;  // of the allowed approach of two features, that each may use
+constexpr double kRounding = 1e-12;    // bricks by which features of nodes that move as one approach by rounding errors
 
 /// How far two features may approach in a step, m; below 0: they must separate.
 double allowed_approach(const AwakePair& pair, double brick) {
@@ -58,7 +60,8 @@ void CrossingGuard::count(int rounds, bool has_failed) {
 }
 
 bool CrossingGuard::may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const {
-  return closing_speed(pair.pair, speeds) * dt > allowed_approach(pair, near_.brick());
+  const double least = welds_.empty() ? -std::numeric_limits<double>::infinity() : kRounding * near_.brick();
+  return closing_speed(pair.pair, speeds) * dt > std::max(least, allowed_approach(pair, near_.brick()));
 }
 
 bool CrossingGuard::find_met(double dt) {
@@ -155,7 +158,7 @@ void CrossingGuard::push(const AwakePair& pair, const Eigen::Vector4d& speeds, c
   }
   if (!(response > 0)) return;
   const double approach = allowed_approach(pair, near_.brick());
-  const double impulse = ((approach > 0 ? -0.5 * approach : -approach) / dt - weights.dot(speeds)) / response;
+  const double impulse = ((approach > 0 ? -0.5 : -2) * approach / dt - weights.dot(speeds)) / response;
   for (std::size_t i = 0; i < count; ++i) {
     const double change = impulse * entries[i].weight * inverse_mass(entries[i].row, entries[i].node);
     near_.body(entries[i].row).velocities.row(entries[i].node) += (change * pair.normal).transpose();

@@ -14,6 +14,7 @@ constexpr double kSeen = 2;       // ... and times as far, within which their di
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
 constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
+constexpr double kTouching = 1e-6;  // bricks: the direction between nearest points is rounding error then
 
 /// Whether the nearest points of two edges are at an end of one: such contacts are left to points.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
@@ -138,12 +139,35 @@ AwakePair FeaturePairs::measure(const FeaturePair& pair) {
   const FeatureDistance found =
       pair.count == 1 ? point_to_triangle(x[0], x[1], x[2], x[3]) : edge_to_edge(x[0], x[1], x[2], x[3]);
   const double gap = found.apart.norm();
-  return {.pair = pair,
-          .bodies = bodies_,
-          .normal = found.apart / std::max(gap, 1e-300),
-          .gap = gap,
-          .weights = found.weights,
-          .friction = friction_};
+  AwakePair measured{.pair = pair,
+                     .bodies = bodies_,
+                     .normal = found.apart / std::max(gap, 1e-300),
+                     .gap = gap,
+                     .weights = found.weights,
+                     .friction = friction_};
+  if (gap < kTouching * brick_) measured.normal = normal_of_touching(measured);
+  return measured;
+}
+
+Vec3 FeaturePairs::facing_of(const AwakePair& pair) {
+  Vec3 facing = Vec3::Zero();
+  for (int i = 0; i < 4; ++i) {
+    if (pair.weights[i] != 0) facing -= pair.weights[i] * tree(pair.pair.side(i)).normal_of(pair.pair.corners[i]);
+  }
+  return facing;
+}
+
+Vec3 FeaturePairs::normal_of_touching(const AwakePair& pair) {
+  const Vec3 facing = facing_of(pair);
+  Vec3 across;
+  if (pair.pair.count == 1) {
+    across = is_beside(pair) ? Vec3(Vec3::Zero()) : outward_normal(pair);
+  } else {
+    const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
+    across = is_at_end(pair) ? Vec3(Vec3::Zero()) : Vec3((place(1) - place(0)).cross(place(3) - place(2)));
+  }
+  if (across.isZero(0)) return facing.normalized();
+  return (across.dot(facing) < 0 ? -1 : 1) * across.normalized();
 }
 
 bool FeaturePairs::pierces(const AwakePair& edges, int edge) {
@@ -159,11 +183,6 @@ bool FeaturePairs::pierces(const AwakePair& edges, int edge) {
     if (crossing != 0) return true;
   }
   return false;
-}
-
-bool FeaturePairs::face_apart(const AwakePair& edges) {
-  const auto normal = [&](int i) { return tree(edges.pair.side(i)).normal_of(edges.pair.corners[i]); };
-  return (normal(2) + normal(3) - normal(0) - normal(1)).dot(edges.normal) < 0;
 }
 
 Vec3 FeaturePairs::outward_normal(const AwakePair& pair) {
@@ -298,7 +317,7 @@ void FeaturePairs::choose_supports(std::vector<AwakePair>& pairs) {
   for (std::size_t row = 0; row < pairs.size(); ++row) {
     AwakePair& pair = pairs[row];
     if (pair.pair.count == 2) {
-      pair.may_support = !is_at_end(pair) && !face_apart(pair);
+      pair.may_support = !is_at_end(pair) && facing_of(pair).dot(pair.normal) >= 0;
     } else if (pair.may_support) {
       pair.may_support = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside(pair));
     }

@@ -79,8 +79,12 @@ class FeaturePairs : private NearLists {
   /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
   /// of its last if it is 2.
   [[nodiscard]] bool pierces(const AwakePair& edges, int edge);
-  /// Whether the surfaces at two edges face away from each other, so that one lies inside the other's.
-  [[nodiscard]] bool face_apart(const AwakePair& edges);
+  /// The difference of the surfaces' normals at the nearest points, of any length: opposite to the pair's normal if one
+  /// feature lies inside the other's surface.
+  [[nodiscard]] Vec3 facing_of(const AwakePair& pair);
+  /// Unit, where the nearest points coincide: that of the triangle or of both edges, on the side to which the surfaces
+  /// face.
+  [[nodiscard]] Vec3 normal_of_touching(const AwakePair& pair);
   /// Of the pair's triangle, of any length.
   [[nodiscard]] Vec3 outward_normal(const AwakePair& pair);
   /// Whether the pair's point is behind the triangle and inside its surface. A point behind a triangle can be outside:

@@ -230,6 +230,20 @@ TEST(CrossingGuard, CountsTheStepsInWhichItActs) {
   EXPECT_EQ(counts.failed, 0);
 }
 
+/// Nearest points that coincide have no direction between them: the surfaces do.
+TEST(CrossingGuard, MovesNothingAsOneThatTouchesExactlyAtTheStart) {
+  World world;
+  Obstacle table;
+  table.shape = SolidBox{Vec3(0.1, 0.01, 0.1)};
+  table.pose.translation.y() = -0.01;
+  world.obstacles.push_back(table);
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero()));
+  world.bodies.push_back(touching_box({2, 2, 2}, 0.02, test_material(0.3), Vec3(0.01, 0.06, 0.02)));
+  const GuardCounts counts = counts_of_frame(world);
+  EXPECT_GT(counts.impulses, 0);
+  EXPECT_EQ(counts.welded, 0);
+}
+
 /// A box on the ground, whose lower nodes are pinned and move at `velocity` (m/s).
 World box_with_feet(double velocity) {
   World world;
