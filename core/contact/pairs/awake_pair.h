@@ -20,7 +20,8 @@ struct FeaturePair {
 /// At most how fast two features approach (m/s), given the corners' speeds along the normal from the second's nearest
 /// point to the first's: the features are convex, and it separates them.
 [[nodiscard]] inline double closing_speed(const FeaturePair& pair, const Eigen::Vector4d& speeds) {
-  return speeds.tail(4 - pair.count).maxCoeff() - speeds.head(pair.count).minCoeff();
+  const double of_last = std::max(speeds[2], speeds[3]);
+  return pair.count == 1 ? std::max(speeds[1], of_last) - speeds[0] : of_last - std::min(speeds[0], speeds[1]);
 }
 
 /// A pair that may meet in the coming step.

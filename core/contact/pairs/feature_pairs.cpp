@@ -14,7 +14,7 @@ constexpr double kSeen = 2;       // ... and times as far, within which their di
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
 constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
-constexpr double kTouching = 1e-6;  // bricks: the direction between nearest points is rounding error then
+constexpr double kTouching = 1e-6;  // bricks: the direction between nearest points is then a rounding error
 
 /// Whether the nearest points of two edges are at an end of one: such contacts are left to points.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
@@ -246,7 +246,23 @@ bool FeaturePairs::may_skip(const AwakePair& pair, const Woken& woken) {
   return true;
 }
 
+bool FeaturePairs::stays_apart(Sleeper& sleeper, double closer, double coming) {
+  if (sleeper.normal.isZero(0) || !sleeper.impulse.isZero(0)) return false;
+  const FeaturePair& pair = sleeper.pair;
+  Eigen::Vector4d heights;
+  for (int i = 0; i < 4; ++i) heights[i] = sleeper.normal.dot(tree(pair.side(i)).place_of(pair.corners[i]));
+  const double reach = pair.count == 1 ? kGuardedGap : kGuardedEdges;
+  const double way = distance_until_due(-closing_speed(pair, heights), reach * brick_, brick_);
+  if (way > coming) {
+    sleeper.wake = closer + way;
+    return true;
+  }
+  sleeper.wake = closer;
+  return way > 0 && way > coming_closer(pair, sleeper.normal);
+}
+
 void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
+  if (stays_apart(sleeper, closer, coming)) return;
   AwakePair pair = measure(sleeper.pair);
   const bool is_point = pair.pair.count == 1;
   const double reach = is_point ? kGuardedGap : is_at_end(pair) ? 0 : kGuardedEdges;
@@ -258,21 +274,20 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   const bool may_sleep = sleeper.impulse.isZero(0) && pair.gap > 0;
   const bool is_asleep = may_sleep && way > coming;
   sleeper.wake = is_asleep ? closer + way : closer;
-  if (is_asleep || (may_sleep && way > coming_closer(pair))) return;
+  sleeper.normal = may_sleep ? pair.normal : Vec3(Vec3::Zero());
+  if (is_asleep || (may_sleep && way > coming_closer(pair.pair, pair.normal))) return;
   if (!is_point && (pierces(pair, 0) || pierces(pair, 2))) return;
   pair.is_loaded = !sleeper.impulse.isZero(0);
   woken_.push_back({&sleeper, coming});
   measured_.push_back(pair);
 }
 
-double FeaturePairs::coming_closer(const AwakePair& pair) {
+double FeaturePairs::coming_closer(const FeaturePair& pair, const Vec3& normal) {
   Eigen::Vector4d speeds;
-  for (int corner = 0; corner < 4; ++corner) {
-    speeds[corner] = pair.normal.dot(tree(pair.pair.side(corner)).velocity_of(pair.pair.corners[corner]));
-  }
+  for (int i = 0; i < 4; ++i) speeds[i] = normal.dot(tree(pair.side(i)).velocity_of(pair.corners[i]));
   const SurfaceTree& ours = trees_[0];
   const SurfaceTree& others = trees_[1];
-  return ours.time_ahead() * std::max(0.0, closing_speed(pair.pair, speeds)) + ours.distance_ahead() +
+  return ours.time_ahead() * std::max(0.0, closing_speed(pair, speeds)) + ours.distance_ahead() +
          others.distance_ahead();
 }
 

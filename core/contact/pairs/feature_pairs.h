@@ -31,8 +31,9 @@ class FeaturePairs : private NearLists {
   struct Sleeper {
     FeaturePair pair;
     double wake = 0;              // m, by which its block may come closer before it must be checked
+    Vec3 normal = Vec3::Zero();   // unit, of a plane that separated its features when last measured; 0: none
     Vec3 impulse = Vec3::Zero();  // N s
-    bool is_inside = false;       // the point, in the other surface, when last looked at
+    bool is_inside = false;       // the point, in the other surface, when last measured
   };
   struct NearList {
     std::size_t block = 0;
@@ -97,9 +98,12 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] bool are_connected(std::size_t side, int point, int other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
-  /// How far (m) its two features may approach until the trees are followed again: along the normal that separates
-  /// them, and so less than any two points of their clusters may.
-  [[nodiscard]] double coming_closer(const AwakePair& pair);
+  /// Whether a pair that is due is kept apart until the trees are followed again by the plane that last separated it,
+  /// which is cheaper to find out than to measure it.
+  [[nodiscard]] bool stays_apart(Sleeper& sleeper, double closer, double coming);
+  /// How far (m) its two features may approach until the trees are followed again: along the normal of a plane that
+  /// separates them, and so less than any two points of their clusters may.
+  [[nodiscard]] double coming_closer(const FeaturePair& pair, const Vec3& normal);
   struct Woken {
     Sleeper* sleeper;
     double coming;  // m, that the two may come closer until woken again

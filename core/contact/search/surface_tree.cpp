@@ -212,10 +212,8 @@ void SurfaceTree::measure_own(const Points& moved, const Points& moving) {
   measure(own_moved, own_moving, turning.spin.squaredNorm() * std::sqrt(furthest) / 2, own_motions_);
 }
 
-const Vec3& SurfaceTree::place_of(int point) {
-  Cached<Vec3>& place = places_[point];
-  if (place.step != step_) place = {carried(body_, skin_.points[point], body_.positions), step_};
-  return place.value;
+void SurfaceTree::find_place(int point) {
+  places_[point] = {carried(body_, skin_.points[point], body_.positions), step_};
 }
 
 const Vec3& SurfaceTree::normal_of(int point) {
@@ -226,12 +224,8 @@ const Vec3& SurfaceTree::normal_of(int point) {
   return normal.value;
 }
 
-const Vec3& SurfaceTree::velocity_of(int point) {
-  Cached<Vec3>& velocity = velocities_[point];
-  if (velocity.step != velocity_step_) {
-    velocity = {carried(body_, skin_.points[point], body_.velocities), velocity_step_};
-  }
-  return velocity.value;
+void SurfaceTree::find_velocity(int point) {
+  velocities_[point] = {carried(body_, skin_.points[point], body_.velocities), velocity_step_};
 }
 
 const AlignedBox& SurfaceTree::box(int row) {

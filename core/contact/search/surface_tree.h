@@ -82,9 +82,15 @@ class SurfaceTree {
   /// The current cone of its points' and triangles' normals.
   [[nodiscard]] const NormalCone& cone(int node);
   /// The current position of a contact point, m, and the normal of the skin there, unit.
-  [[nodiscard]] const Vec3& place_of(int point);
+  [[nodiscard]] const Vec3& place_of(int point) {
+    if (places_[point].step != step_) find_place(point);
+    return places_[point].value;
+  }
   [[nodiscard]] const Vec3& normal_of(int point);
-  [[nodiscard]] const Vec3& velocity_of(int point);
+  [[nodiscard]] const Vec3& velocity_of(int point) {
+    if (velocities_[point].step != velocity_step_) find_velocity(point);
+    return velocities_[point].value;
+  }
   /// How often more a ray from `start` leaves the surface than it enters it: for a closed surface its winding number,
   /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
   /// have the point `except` as a corner are left out.
@@ -95,6 +101,8 @@ class SurfaceTree {
   using Features = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   void add_node(int first, int last, int cluster, const Features& features);
   void list_nodes_of_clusters();
+  void find_place(int point);
+  void find_velocity(int point);
   /// Of the segment from `start` to `end` with the triangles of a subtree.
   [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
   /// Computes the motion of every node of the tree from the past and coming displacements of the body's nodes.
