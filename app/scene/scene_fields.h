@@ -150,8 +150,8 @@ void fields(auto& visit, Is<SceneContact> auto& contact) {
   visit({"bodies", "whether bodies collide with each other"}, contact.bodies);
   visit({"self", "whether a body collides with itself"}, contact.self);
   visit({"guard",
-         "an experiment, with explicit steps only: no skin passes through another, itself or an obstacle, at edges "
-         "too; slower"},
+         "with explicit steps: whether edges touch too, and nothing passes through anything; false: only points touch, "
+         "which is faster"},
         contact.guard);
 }
 

@@ -110,7 +110,6 @@ ImplicitMotion::Report ImplicitMotion::report() const {
 }
 
 std::string check_implicit_support(const World& world) {
-  if (world.guards_crossings) return "contact.guard is set";
   for (const Obstacle& obstacle : world.obstacles) {
     if (obstacle.restitution > 0) return fmt::format("an obstacle has a restitution of {:.3g}", obstacle.restitution);
   }
