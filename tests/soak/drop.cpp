@@ -60,8 +60,15 @@ SoftBody make_soft_body_of(Shape shape, double size, Model model, const Material
   return make_soft_body(mesh, solid, std::move(filled.grid), model, material);
 }
 
-double lowest_point(const SoftBody& body) {
+double lowest_contact_point(const SoftBody& body) {
   return deform_points(body.grid, body.contact.points, body.positions).col(1).minCoeff();
+}
+
+/// Of those that contact keeps above the ground.
+double lowest_kept_point(const World& world) {
+  const SoftBody& body = world.bodies.front();
+  if (!world.guards_crossings || body.drawn.mesh == nullptr) return lowest_contact_point(body);
+  return body.skin_positions(body.positions).col(1).minCoeff();
 }
 
 }  // namespace
@@ -83,7 +90,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double le
   SoftBody& body = drop.world.bodies.front();
   place(body, dice.rotation(), Vec3::Zero());
   const double gap = dice.between(0, 0.02) * size;
-  place(body, Mat3::Identity(), Vec3(0, gap - lowest_point(body), 0));
+  place(body, Mat3::Identity(), Vec3(0, gap - lowest_contact_point(body), 0));
   const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
   const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
   body.velocities.rowwise() = velocity.transpose();
@@ -112,7 +119,7 @@ DropResult run_drop(Drop& drop) {
       const std::vector<GroupSteps> groups = motion.advance_frame(
           i * frame, frame, [](double) {}, [&](const std::string&) { ++result.halvings; });
       result.brick_steps += groups[0].steps.count * body.grid.brick_count();
-      result.deepest = std::max(result.deepest, -lowest_point(body) / drop.size);
+      result.deepest = std::max(result.deepest, -lowest_kept_point(drop.world) / drop.size);
       result.energy_gain =
           std::max(result.energy_gain, (energy_of(body, drop.world.gravity).sum() - first) / (first + scale));
       result.inverted_on_the_way = std::max(result.inverted_on_the_way, inverted_bricks(body));

@@ -21,7 +21,8 @@ struct Drop {
 /// The outcome of a drop.
 struct DropResult {
   std::string fault;            // empty: none
-  double deepest = 0;           // share of the size that a contact point was below the ground
+  double deepest = 0;           // share of the size that a contact point, or with the guard what is drawn, was below
+                                // the ground
   double energy_gain = 0;       // highest energy over the first, share of the first
   bool is_crushed = false;      // at the end its guard supports it, not its springs
   int inverted_bricks = 0;      // at the end
