@@ -159,13 +159,10 @@ Vec3 FeaturePairs::facing_of(const AwakePair& pair) {
 
 Vec3 FeaturePairs::normal_of_touching(const AwakePair& pair) {
   const Vec3 facing = facing_of(pair);
-  Vec3 across;
-  if (pair.pair.count == 1) {
-    across = is_beside(pair) ? Vec3(Vec3::Zero()) : outward_normal(pair);
-  } else {
-    const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
-    across = is_at_end(pair) ? Vec3(Vec3::Zero()) : Vec3((place(1) - place(0)).cross(place(3) - place(2)));
-  }
+  const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
+  Vec3 across = Vec3::Zero();
+  if (pair.pair.count == 1 && !is_beside(pair)) across = outward_normal(pair);
+  if (pair.pair.count == 2 && !is_at_end(pair)) across = (place(1) - place(0)).cross(place(3) - place(2));
   if (across.isZero(0)) return facing.normalized();
   return (across.dot(facing) < 0 ? -1 : 1) * across.normalized();
 }
