@@ -57,14 +57,14 @@ void MapBrush::make_mipmaps(const GlTexture& texture) const {
   gl_.GenerateMipmap(GL_TEXTURE_2D);
 }
 
-void MapBrush::blur(const LightMap& from, const LightMap& pass, const LightMap& to,
+void MapBrush::blur(const LightMap& from, const LightMap& scratch, const LightMap& to,
                     const Eigen::Vector2f& reach) const {
   blur_program_.use();
   blur_program_.set("source", 0);
   bind_texture(gl_, 0, from.color);
   blur_program_.set("reach", Eigen::Vector2f(reach.x(), 0));
-  fill(pass);
-  bind_texture(gl_, 0, pass.color);
+  fill(scratch);
+  bind_texture(gl_, 0, scratch.color);
   blur_program_.set("reach", Eigen::Vector2f(0, reach.y()));
   fill(to);
 }
@@ -126,7 +126,7 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, const Rende
       sky_(brush.make_map(kSkySize, &map_format::kFlatColor, false)),
       shadow_(brush.make_map(shadow_size(options.quality), &map_format::kShadow, true)),
       light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
-      far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
+      far_light_scratch_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
       far_light_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
       tint_(brush.make_map(shadow_.size, &map_format::kFineColor, false)),
       underside_programs_(load_skin_programs(gl, "underside.frag")),
@@ -140,7 +140,7 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, const Rende
       tint_program_(load_program(gl, "screen.vert", "ground_tint.frag", tint_defines(options))) {}
 
 void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
-                      PassClock& clock) const {
+                      DrawTimer& clock) const {
   if (frame.has_ground) {
     draw_underside(skins, textures, frame);
     clock.stop("underside map");
@@ -157,7 +157,7 @@ void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& t
   }
   draw_light(light_program_, light_, frame);
   const Eigen::Array2d reach = kFarBlur * frame.body_radius / frame.light.ground.sides.array();
-  brush_.blur(light_, far_light_pass_, far_light_, reach.cast<float>());
+  brush_.blur(light_, far_light_scratch_, far_light_, reach.cast<float>());
   clock.stop("ground light");
 }
 
@@ -307,12 +307,12 @@ LightMaps::LightMaps(const GlFunctions& gl, const RenderOptions& options)
       key_(brush_.make_map(key_size(options.quality), nullptr, true)),
       zenith_depth_(brush_.make_map(kZenithDepthSize, nullptr, true)),
       zenith_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
-      zenith_pass_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
+      zenith_scratch_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
       zenith_program_(load_program(gl, "screen.vert", "zenith_filter.frag")),
       ground_(gl, brush_, options, key_) {}
 
 void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
-                     PassClock& clock) const {
+                     DrawTimer& clock) const {
   gl_.Enable(GL_DEPTH_TEST);
   brush_.draw_depth(key_, frame.light.key, skins, Detail::kCoarse, frame);
   brush_.make_mipmaps(key_.depth);
@@ -331,7 +331,7 @@ void LightMaps::blur_zenith(const DrawFrame& frame) const {
   zenith_program_.set("zenith_depth", 0);
   brush_.fill(zenith_);
   const Eigen::Array2d reach = kZenithBlur * frame.body_radius / frame.light.zenith.sides.head<2>().array();
-  brush_.blur(zenith_, zenith_pass_, zenith_, reach.cast<float>());
+  brush_.blur(zenith_, zenith_scratch_, zenith_, reach.cast<float>());
 }
 
 void LightMaps::bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const {

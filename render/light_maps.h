@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "render/frame.h"
-#include "render/gl/pass_clock.h"
+#include "render/gl/draw_timer.h"
 #include "render/skin_buffers.h"
 #include "render/trace/ground_light.h"
 
@@ -39,9 +39,9 @@ class MapBrush {
   void fill(const LightMap& map) const;
   void clear(const LightMap& map) const;
   void make_mipmaps(const GlTexture& texture) const;
-  /// Separable Gaussian via `pass`, which is as large as `to`. `reach`: three standard deviations, in texture
+  /// Separable Gaussian via `scratch`, which is as large as `to`. `reach`: three standard deviations, in texture
   /// coordinates.
-  void blur(const LightMap& from, const LightMap& pass, const LightMap& to, const Eigen::Vector2f& reach) const;
+  void blur(const LightMap& from, const LightMap& scratch, const LightMap& to, const Eigen::Vector2f& reach) const;
   /// Depth of all bodies in a parallel projection.
   void draw_depth(const LightMap& map, const LightView& view, const std::vector<SkinBuffers>& skins, Detail detail,
                   const DrawFrame& frame) const;
@@ -64,7 +64,7 @@ class GroundMaps {
   GroundMaps(const GlFunctions& gl, const MapBrush& brush, const RenderOptions& options, const LightMap& key);
   /// Draws all but the tint.
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
-            PassClock& clock) const;
+            DrawTimer& clock) const;
   /// Draws the tint, with the bodies' effect on the ground if rays gather it.
   void draw_tint(const DrawFrame& frame, const GroundGlow* glow);
 
@@ -94,7 +94,7 @@ class GroundMaps {
   LightMap sky_;
   LightMap shadow_;
   LightMap light_;
-  LightMap far_light_pass_;
+  LightMap far_light_scratch_;
   LightMap far_light_;
   LightMap tint_;
   GlTexture glow_;  // light from bodies, if it is gathered
@@ -117,7 +117,7 @@ class LightMaps {
 
   LightMaps(const GlFunctions& gl, const RenderOptions& options);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
-            PassClock& clock) const;
+            DrawTimer& clock) const;
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
   void bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
   [[nodiscard]] const GroundMaps& ground() const { return ground_; }
@@ -134,7 +134,7 @@ class LightMaps {
   LightMap key_;
   LightMap zenith_depth_;
   LightMap zenith_;
-  LightMap zenith_pass_;
+  LightMap zenith_scratch_;
   GlProgram zenith_program_;
   GroundMaps ground_;
 };

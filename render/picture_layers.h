@@ -9,7 +9,7 @@ namespace sprung {
 /// A picture with translucent objects is the mean of a few, each of the objects that are at least that opaque.
 /// Overlapping translucent objects are together as faint as one of them, so that a thousand of them still hide nothing.
 struct PictureLayer {
-  float least_opacity;
+  float min_opacity;
   double weight;  // in the mean; the weights add up to 1
 };
 

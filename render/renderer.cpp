@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "render/gl/context.h"
-#include "render/gl/pass_clock.h"
+#include "render/gl/draw_timer.h"
 #include "render/pass_drawer.h"
 #include "render/picture_layers.h"
 #include "render/screen.h"
@@ -19,8 +19,8 @@ namespace sprung {
 
 namespace {
 
-constexpr int kMostSamples = 4096;    // of traced pictures
-constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
+constexpr int kMaxSamples = 4096;    // of traced pictures
+constexpr double kMaxMotion = 0.25;  // of a body's radius; overlays jump
 
 std::vector<SkinShape> between(const std::vector<SkinShape>& first, const std::vector<SkinShape>& last, float part) {
   std::vector<SkinShape> shapes = first;
@@ -40,10 +40,10 @@ void check_options(const Stage& stage, const RenderOptions& options) {
                                        std::to_string(largest) + " pixels");
   }
   const bool is_known =
-      is_traced ? options.samples >= 1 && options.samples <= kMostSamples : is_raster_samples(options.samples);
+      is_traced ? options.samples >= 1 && options.samples <= kMaxSamples : is_raster_samples(options.samples);
   if (!is_known) {
     throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be " +
-                                       (is_traced ? "1 to " + std::to_string(kMostSamples) : "1, 4 or 16"));
+                                       (is_traced ? "1 to " + std::to_string(kMaxSamples) : "1, 4 or 16"));
   }
   if (stage.bounds.isEmpty() || stage.skins.size() != stage.default_colors.size()) {
     throw Error(ErrorKind::kFailed, "a stage needs bounds and a default colour for every skin");
@@ -106,7 +106,7 @@ struct Renderer::Device {
   LightMaps maps;
   std::optional<GatheredLight> gathered;
   Screen screen;
-  PassClock clock;
+  DrawTimer clock;
   Floor floor;
   std::optional<Environment> environment;
   RenderOptions options;
@@ -184,7 +184,7 @@ struct Renderer::Device {
       const Floats3 ways = exposure.last[i].positions - exposure.first[i].positions;
       if (ways.rows() > 0) longest = std::max<double>(longest, ways.rowwise().norm().maxCoeff());
     }
-    middle.motion = std::min(0.5 * space.scale * longest, kMostMotion * body_radius);
+    middle.motion = std::min(0.5 * space.scale * longest, kMaxMotion * body_radius);
     return middle;
   }
 
@@ -207,11 +207,11 @@ struct Renderer::Device {
     return view;
   }
 
-  void draw(const View& view, float least_opacity) { draw(screen, view, least_opacity); }
+  void draw(const View& view, float min_opacity) { draw(screen, view, min_opacity); }
 
-  void draw(Screen& target, const View& view, float least_opacity) {
+  void draw(Screen& target, const View& view, float min_opacity) {
     target.clear_surfaces();
-    target.draw_surfaces(skins, textures, view, least_opacity);
+    target.draw_surfaces(skins, textures, view, min_opacity);
     clock.stop("surfaces");
     target.draw_light(maps, view, clock);
   }
@@ -233,7 +233,7 @@ struct Renderer::Device {
     } else if (light_screen) {
       light.assign(out.shadow.size(), Eigen::Vector4f::Zero());
       for (const PictureLayer& layer : layers) {
-        draw(*light_screen, view, layer.least_opacity);
+        draw(*light_screen, view, layer.min_opacity);
         const std::vector<Eigen::Vector4f> part = light_screen->read_numbers();
         for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(layer.weight) * part[i];
       }
@@ -259,12 +259,12 @@ struct Renderer::Device {
     share_screen.emplace(gl, single, floor, environment, ScreenOutput::kShares, gathering());
   }
 
-  void draw(const Exposure& exposure, const View& view, float least_opacity) {
-    if (&exposure.first == &exposure.last) return draw(view, least_opacity);
+  void draw(const Exposure& exposure, const View& view, float min_opacity) {
+    if (&exposure.first == &exposure.last) return draw(view, min_opacity);
     screen.clear_surfaces();
     for (int turn = 0; turn < kTurns; ++turn) {
       update(between(exposure.first, exposure.last, (float(turn) + 0.5F) / kTurns));
-      screen.draw_surfaces(skins, textures, view, least_opacity, turn);
+      screen.draw_surfaces(skins, textures, view, min_opacity, turn);
     }
     clock.stop("surfaces");
     screen.draw_light(maps, view, clock);
@@ -294,7 +294,7 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   const std::vector<PictureLayer> layers = picture_layers(device.has_ghosts, shapes);
   std::vector<Image> pictures;
   for (const PictureLayer& layer : layers) {
-    device.draw(view, layer.least_opacity);
+    device.draw(view, layer.min_opacity);
     pictures.push_back(device.screen.read());
   }
   device.clock.stop("read back");
@@ -312,7 +312,7 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
     const std::vector<SkinShape> middle = between(exposure.first, exposure.last, 0.5F);
     const View view = device.light(middle, device.frame(exposure, middle), exposure.camera);
     for (const PictureLayer& layer : picture_layers(device.has_ghosts, middle)) {
-      device.draw(exposure, view, layer.least_opacity);
+      device.draw(exposure, view, layer.min_opacity);
       device.screen.add_exposure(device.maps, view, layer.weight * part);
     }
   }
@@ -338,7 +338,7 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
   return passes;
 }
 
-const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }
+const std::vector<DrawTime>& Renderer::draw_times() const { return device_->clock.times(); }
 
 std::string Renderer::driver() const {
   const CurrentContext current(device_->context);

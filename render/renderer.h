@@ -35,7 +35,7 @@ class Renderer {
   [[nodiscard]] Passes draw_passes(const Moment& now, const Moment& before, const Moment& after);
 
   /// The time of each pass over all pictures so far; empty unless measured.
-  [[nodiscard]] const std::vector<PassTime>& pass_times() const;
+  [[nodiscard]] const std::vector<DrawTime>& draw_times() const;
 
   /// Name and version of the driver, for reports.
   [[nodiscard]] std::string driver() const;

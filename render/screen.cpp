@@ -168,7 +168,7 @@ GlProgram Screen::load(const char* fragment, const RenderOptions& options) const
                   environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_), gathered_define(gathering_)));
 }
 
-void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& clock) {
+void Screen::draw_light(const LightMaps& maps, const View& view, DrawTimer& clock) {
   if (output_ == ScreenOutput::kShares) {
     clear_picture({1, 1, 1, 1});
   } else if (is_transparent_) {
@@ -243,7 +243,7 @@ void Screen::clear_surfaces() const {
 /// The triangles are small, and llvmpipe would shade several times as many pixels as they cover. So the light is
 /// computed in a deferred pass, one triangle over the whole picture.
 void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                           float least_opacity, int turn) const {
+                           float min_opacity, int turn) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
   gl_.Viewport(0, 0, side_ * width_, side_ * height_);
   gl_.Enable(GL_DEPTH_TEST);
@@ -254,11 +254,11 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
     program->set("turn", turn);
-    program->set("least_opacity", least_opacity);
+    program->set("min_opacity", min_opacity);
   }
   gl_.PolygonOffset(1, 1);  // puts ghosts behind a body in the same place
   for (const SkinBuffers& skin : skins) {
-    if (skin.is_ghost() && least_opacity > float(kGhostOpacity)) continue;
+    if (skin.is_ghost() && min_opacity > float(kGhostOpacity)) continue;
     if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(skin.sides() == Sides::kFront ? GL_BACK : GL_FRONT);
     if (skin.is_ghost()) gl_.Enable(GL_POLYGON_OFFSET_FILL);
@@ -307,7 +307,7 @@ void Screen::draw_floor(const LightMaps& maps, const View& view) const {
 
 /// An early depth test keeps llvmpipe from running a shader, an `if` does not. So a cheap pass first writes as depth
 /// whether a pixel shows a skin.
-void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) const {
+void Screen::develop(const LightMaps& maps, const View& view, DrawTimer& clock) const {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   const PixelRectangle seen = seen_rectangle(view, width_, height_);
   gl_.Enable(GL_SCISSOR_TEST);

@@ -53,9 +53,9 @@ class Screen {
   void clear_surfaces() const;
   /// Draws in the samples of one turn, if the options ask for exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                     float least_opacity, int turn = kAllTurns) const;
+                     float min_opacity, int turn = kAllTurns) const;
   /// The picture, or one exposure of it.
-  void draw_light(const LightMaps& maps, const View& view, PassClock& clock);
+  void draw_light(const LightMaps& maps, const View& view, DrawTimer& clock);
   /// For options that ask for exposures, whose parts add up to 1.
   void clear_exposures() const { exposures_.value().clear(); }
   void add_exposure(const LightMaps& maps, const View& view, double part) const;
@@ -73,7 +73,7 @@ class Screen {
   void clear_picture(const Eigen::Vector4f& color) const;
   void show_backdrop(const View& view);
   void draw_floor(const LightMaps& maps, const View& view) const;
-  void develop(const LightMaps& maps, const View& view, PassClock& clock) const;
+  void develop(const LightMaps& maps, const View& view, DrawTimer& clock) const;
   void cover(const GlProgram& program, const LightMaps& maps, const View& view) const;
 
   const GlFunctions& gl_;

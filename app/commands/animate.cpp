@@ -90,7 +90,7 @@ void with_motion_kept(const RunCache& motion, const Console& console, const std:
     work();
   } catch (...) {
     if (motion.has_file() && motion.frame_count() > 0) {
-      console.note(fmt::format("the motion so far, {}, is kept in {}; the same command goes on with it",
+      console.note(fmt::format("the motion so far, {}, is kept in {}; the same command resumes from it",
                                count_of(motion.frame_count(), "frame"), motion.file().string()));
     }
     throw;
@@ -119,7 +119,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
     const std::filesystem::path file = motion_file(outputs.front());
     const SceneRecord record = record_of(scene);
     const bool goes_on = holds_motion(file, scene, record);
-    if (goes_on) console.note(fmt::format("goes on with the motion in {}", file.string()));
+    if (goes_on) console.note(fmt::format("resuming from the motion in {}", file.string()));
     RunCache motion(file, record, goes_on);
     motion.wait_for(patience);
     with_motion_kept(motion, console, [&] {

@@ -117,7 +117,7 @@ void refuse_repeated(const CLI::App& command) {
 void check_default(const CLI::App& app, const Invocation& invocation, const OptionDefault& one) {
   const OptionDefaults& defaults = invocation.defaults;
   const auto refuse = [&](std::string_view what) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.place(one), what));
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.location(one), what));
   };
   std::vector<std::string> names;
   std::vector<std::string> options;
@@ -163,7 +163,7 @@ void apply_defaults(CLI::App& app, const Invocation& invocation) {
         for (const std::string& value : one.values) option->add_result(value);
         option->run_callback();
       } catch (const CLI::ParseError& error) {
-        throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.place(one), error.what()));
+        throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.location(one), error.what()));
       }
     }
   }

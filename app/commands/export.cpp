@@ -55,7 +55,7 @@ std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& f
     return target.animation != nullptr && target.animation->can_quantize;
   });
   if (options.quantize && !can_quantize) {
-    throw Error(ErrorKind::kUsage, "--quantize is about an animated .glb: -o film.glb");
+    throw Error(ErrorKind::kUsage, "--quantize applies to an animated .glb: -o film.glb");
   }
   for (std::size_t i = 0; i < targets.size() && !options.takes.empty(); ++i) {
     if (targets[i].animation != nullptr && targets[i].animation->holds_takes) continue;

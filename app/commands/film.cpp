@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFrames = 1000000000;  // that --frames may name
+constexpr std::size_t kMaxFrames = 1000000000;  // that --frames may name
 
 struct FilmOptions {
   std::string input;  // the pictures
@@ -71,9 +71,9 @@ void make_film(const FilmOptions& options, double fps, const Console& console) {
   const bool are_pictures = pictures.kind == Output::Kind::kPictures && pictures.is_numbered();
   const int last = are_pictures ? last_number(pictures) : 0;
   if (last == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}': no numbered pictures are there", options.input));
-  const std::size_t count = options.frames.empty() ? std::size_t(last) : kMostFrames;
+  const std::size_t count = options.frames.empty() ? std::size_t(last) : kMaxFrames;
   FrameRange range = parse_frame_range(options.frames, count);
-  if (range.last == int(kMostFrames)) range.last = last;
+  if (range.last == int(kMaxFrames)) range.last = last;
   if (const std::string gaps = gaps_in(pictures, range); !gaps.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("'{}': these pictures are missing: {}", options.input, gaps));
   }

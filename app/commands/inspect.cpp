@@ -179,7 +179,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
     require_input(*command, options->scene.input, "a mesh or a scene");
     if (is_cache_file(options->scene.input)) return inspect_cache(*options, invocation.console);
     if (options->crossings)
-      throw Error(ErrorKind::kUsage, "--crossings is about a cache, RUN.h5; make one with simulate");
+      throw Error(ErrorKind::kUsage, "--crossings applies to a cache, RUN.h5; make one with simulate");
     inspect_scene(*options, invocation.console);
   });
 }

@@ -218,16 +218,16 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->check(CLI::IsMember({"auto", "linear", "nonlinear"}))
       ->option_text("auto")
       ->group(kMoreOptions);
-  command->add_option("--deflection-limit", options->deflection_limit, "exit with 1 where it moves further")
+  command
+      ->add_option("--deflection-limit", options->deflection_limit,
+                   "exit with 1 if the largest displacement exceeds it")
       ->option_text("0.5mm");
-  command->add_option("--safety", options->safety, "exit with 1 where the strength is less than so many stresses")
-      ->option_text("2");
+  command->add_option("--safety", options->safety, "exit with 1 if the safety factor is lower")->option_text("2");
   command->add_option("--at", options->points, "also displacement and stress at this point of the file")
       ->allow_extra_args(false)
       ->option_text("X,Y,Z");
-  command->add_option("--modes", options->modes, "also the slowest vibrations of the held part, so many")
-      ->option_text("3");
-  command->add_flag("--buckling", options->buckling, "also the factor of the loads under which it buckles");
+  command->add_option("--modes", options->modes, "also this many of the lowest natural frequencies")->option_text("3");
+  command->add_flag("--buckling", options->buckling, "also the load factor at which it buckles");
   command->add_option("-o,--output", options->folder, "a folder for load.png, .html, .json, .csv and .xdmf (ParaView)")
       ->option_text("folder/");
   command->add_flag("--turntable", options->turntable, "also load.mp4, in which the picture turns once");

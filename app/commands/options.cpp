@@ -197,7 +197,7 @@ std::vector<Setting> default_settings(const OptionDefaults& defaults, std::strin
     const OptionDefault* wanted = is_meant(key) ? defaults.find(command, key.option) : nullptr;
     if (wanted == nullptr) continue;
     settings.push_back(
-        {fmt::format("{}: {}", defaults.place(*wanted), key.option), std::string(key.key), wanted->values.front()});
+        {fmt::format("{}: {}", defaults.location(*wanted), key.option), std::string(key.key), wanted->values.front()});
   }
   return settings;
 }
@@ -206,7 +206,7 @@ std::vector<Setting> default_settings(const OptionDefaults& defaults, std::strin
   std::vector<Setting> settings = default_settings(defaults, command, [](const KeyOption&) { return true; });
   const OptionDefault* sets = defaults.find(command, "--set");
   for (std::size_t i = 0; sets != nullptr && i < sets->values.size(); ++i) {
-    settings.push_back(parse_set(sets->values[i], defaults.place(*sets) + ": "));
+    settings.push_back(parse_set(sets->values[i], defaults.location(*sets) + ": "));
   }
   return settings;
 }

@@ -70,9 +70,9 @@ Places places_of(const SimulateOptions& options) {
     place = output;
   }
   if (options.resume && options.overwrite) throw Error(ErrorKind::kUsage, "give --resume or --overwrite, not both");
-  if (options.resume && !places.cache) throw Error(ErrorKind::kUsage, "--resume goes on with a cache: -o RUN.h5");
+  if (options.resume && !places.cache) throw Error(ErrorKind::kUsage, "--resume continues a cache: -o RUN.h5");
   if (!options.position_error.empty() && !places.cache) {
-    throw Error(ErrorKind::kUsage, "--position-error is about a cache: -o RUN.h5");
+    throw Error(ErrorKind::kUsage, "--position-error applies to a cache: -o RUN.h5");
   }
   const bool may_exist = options.overwrite || options.resume;
   if (places.cache) {

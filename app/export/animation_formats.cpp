@@ -46,7 +46,7 @@ MeshesOverTime meshes_over_time(const AnimationJob& job, int stride) {
 }
 
 void write_glb_film(const AnimationJob& job) {
-  const int stride = (job.range.count() - 2) / int(kMostTargets) + 1;
+  const int stride = (job.range.count() - 2) / int(kMaxTargets) + 1;
   if (stride > 1) {
     job.console.warn(
         fmt::format("{}: {} frames are too many for most players; every {}th is in the file, what is "

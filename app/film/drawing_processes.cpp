@@ -24,11 +24,11 @@ namespace {
 
 constexpr int kPipeSize = 1 << 20;  // bytes; the most that Linux grants by default
 
-enum class Kind : std::int32_t { kPicture, kDone, kError };
+enum class Message : std::int32_t { kPicture, kDone, kError };
 
 /// Precedes the pixels of a picture, or the text of an error.
 struct Header {
-  Kind kind = Kind::kDone;
+  Message kind = Message::kDone;
   ErrorKind error = ErrorKind::kFailed;
   std::int32_t width = 0;
   std::int32_t height = 0;
@@ -67,7 +67,7 @@ bool read_all(int pipe, void* data, std::size_t size) {
 }
 
 void send_error(int pipe, ErrorKind kind, const std::string& text) {
-  const Header header{.kind = Kind::kError, .error = kind, .bytes = text.size()};
+  const Header header{.kind = Message::kError, .error = kind, .bytes = text.size()};
   write_all(pipe, &header, sizeof header);
   write_all(pipe, text.data(), text.size());
 }
@@ -76,7 +76,7 @@ void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& w
   try {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     work(number, [pipe](const Image& image) {
-      const Header header{.kind = Kind::kPicture,
+      const Header header{.kind = Message::kPicture,
                           .width = image.width,
                           .height = image.height,
                           .bytes = image.pixels.size(),
@@ -160,7 +160,7 @@ Image DrawingProcesses::receive(std::size_t process) {
     throw Error(ErrorKind::kFailed, fmt::format("a drawing process {}; --jobs 1 needs none and less memory",
                                                 end_of(std::exchange(child.process, -1))));
   }
-  if (header.kind == Kind::kError) {
+  if (header.kind == Message::kError) {
     std::string text(header.bytes, ' ');
     read_all(child.pipe, text.data(), text.size());
     throw Error(header.error, text);

@@ -63,8 +63,8 @@ bool is_moving(Field field) { return field != Field::kSkin && field != Field::kF
 
 namespace {
 
-constexpr double kUtmost = 0.005;             // fraction of all values that may be outside the range at each end
-constexpr std::size_t kMostValues = 4 << 20;  // that are sampled
+constexpr double kUtmost = 0.005;            // fraction of all values that may be outside the range at each end
+constexpr std::size_t kMaxValues = 4 << 20;  // that are sampled
 
 struct Unit {
   double from;  // SI, smallest range shown in this unit
@@ -168,7 +168,7 @@ ColorRange FieldColors::range_over(std::size_t first, std::size_t last) const {
   std::size_t count = 0;
   for (const SoftBody& body : simulation_.world.bodies) count += std::size_t(body.node_count());
   const std::size_t frames = last - first;
-  const std::size_t stride = 1 + frames * count / kMostValues;
+  const std::size_t stride = 1 + frames * count / kMaxValues;
   std::vector<double> values;
   values.reserve(frames * count / stride + frames);
   std::size_t next = 0;

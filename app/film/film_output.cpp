@@ -62,10 +62,10 @@ bool is_number(std::string_view text) {
 fs::path or_here(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
 
 /// The canonical path, whatever its spelling.
-fs::path place_of(const fs::path& path) {
+fs::path canonical_path(const fs::path& path) {
   std::error_code ignored;
-  fs::path place = fs::weakly_canonical(fs::absolute(path, ignored), ignored).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();
+  fs::path full = fs::weakly_canonical(fs::absolute(path, ignored), ignored).lexically_normal();
+  return full.has_filename() ? full : full.parent_path();
 }
 
 bool is_below(const fs::path& path, const fs::path& above) {
@@ -77,10 +77,11 @@ bool collide(const Output& a, const Output& b) {
   const bool a_is_stream = a.kind == Output::Kind::kStream;
   const bool b_is_stream = b.kind == Output::Kind::kStream;
   if (a_is_stream || b_is_stream) return a_is_stream && b_is_stream;
-  if (!a.is_numbered() && !b.is_numbered()) return place_of(a.file) == place_of(b.file);
-  if (!a.is_numbered()) return is_below(place_of(or_here(b.folder)), place_of(a.file));
+  if (!a.is_numbered() && !b.is_numbered()) return canonical_path(a.file) == canonical_path(b.file);
+  if (!a.is_numbered()) return is_below(canonical_path(or_here(b.folder)), canonical_path(a.file));
   if (!b.is_numbered()) return collide(b, a);
-  return place_of(or_here(a.folder)) == place_of(or_here(b.folder)) && a.before == b.before && a.after == b.after;
+  return canonical_path(or_here(a.folder)) == canonical_path(or_here(b.folder)) && a.before == b.before &&
+         a.after == b.after;
 }
 
 }  // namespace
@@ -185,7 +186,7 @@ void check_output(const Output& output, bool overwrite) {
 
 namespace {
 
-constexpr std::size_t kMostWaiting = 4;
+constexpr std::size_t kMaxWaiting = 4;
 
 }  // namespace
 
@@ -258,7 +259,7 @@ PictureWriter::~PictureWriter() {
 
 void PictureWriter::write(Drawing drawing) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || failure_; });
+  changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting || failure_; });
   if (failure_) std::rethrow_exception(failure_);
   waiting_.push_back(std::move(drawing));
   changed_.notify_all();

@@ -98,18 +98,18 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
 FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                            const ColorRanges& ranges)
     : surroundings_(surroundings),
-      scene_(runs.front().film),
+      film_(runs.front().film),
       reach_(common_reach(runs)),
-      labels_(scene_.render, first_legend(runs.front(), ranges), runs.size() > 1),
-      scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
+      labels_(film_.render, first_legend(runs.front(), ranges), runs.size() > 1),
+      scene_of_panel_(with_panel_size(film_, runs.size(), labels_)),
       longest_(longest_of(runs)) {
-  const auto [width, height] = scene_.render.resolution;
-  const bool is_whole = runs.size() == 1 && !scene_.render.sheet;
+  const auto [width, height] = film_.render.resolution;
+  const bool is_whole = runs.size() == 1 && !film_.render.sheet;
   cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
   const double pixel = 1 / finest_scale(cameras_, scene_of_panel_.render.resolution[1]);
   for (const FilmRun& run : runs) {
     Film its = run.film;
-    its.render = scene_.render;
+    its.render = film_.render;
     panels_.emplace_back(std::move(its), run, pixel, ranges);
   }
 }
@@ -123,7 +123,7 @@ Renderer& FilmPipeline::renderer(Panel& panel) {
 }
 
 FilmPipeline::Moments FilmPipeline::moments(std::size_t frame) const {
-  const double open = scene_.render.motion_blur / 360;
+  const double open = film_.render.motion_blur / 360;
   const int times = open > 0 ? kExposures + 1 : 1;
   Moments moments;
   for (const Panel& panel : panels_) {
@@ -139,19 +139,19 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     pictures.push_back(draw(frame, panels_[i], moments[i]));
     if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
-    if (scene_.render.plots) {
+    if (film_.render.plots) {
       labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
     }
   }
   Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of_panels(pictures);
   labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
-  if (!scene_.render.sheet) labels_.write_legend(image, panels_.front().stage.legend(frame));
+  if (!film_.render.sheet) labels_.write_legend(image, panels_.front().stage.legend(frame));
   return image;
 }
 
 Image FilmPipeline::draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes) {
   Camera camera = cameras_[frame];
-  camera.aperture = scene_.camera.aperture;
+  camera.aperture = film_.camera.aperture;
   if (shapes.size() == 1 && camera.aperture == 0) return renderer(panel).draw(shapes.front(), camera);
   std::vector<Exposure> exposures;
   for (std::size_t i = 0; i + 1 < shapes.size(); ++i) exposures.push_back({shapes[i], shapes[i + 1], camera});
@@ -178,10 +178,10 @@ Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
 }
 
 Image FilmPipeline::sheet_of_panels(const std::vector<Image>& pictures) const {
-  const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
-  const int gutter = gutter_in(scene_.render.resolution[1]);
+  const int columns = film_.render.sheet ? (*film_.render.sheet)[0] : isize(panels_);
+  const int gutter = gutter_in(film_.render.resolution[1]);
   const int used = columns * scene_of_panel_.render.resolution[0] + (columns - 1) * gutter;
-  return sheet_of(pictures, columns, gutter, scene_.render.resolution[0] - used);
+  return sheet_of(pictures, columns, gutter, film_.render.resolution[0] - used);
 }
 
 Image sheet_of(const std::vector<Image>& pictures, int columns, int gutter, int margin) {

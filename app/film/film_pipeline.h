@@ -66,7 +66,7 @@ class FilmPipeline {
   [[nodiscard]] Image sheet_of_panels(const std::vector<Image>& pictures) const;
 
   const std::optional<Environment>& surroundings_;
-  Film scene_;  // of the film
+  Film film_;
   Reach reach_;
   Labels labels_;
   Film scene_of_panel_;  // with the panel's resolution

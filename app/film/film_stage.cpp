@@ -20,11 +20,11 @@ const Eigen::Vector3f kEdgeColor(0.16F, 0.17F, 0.20F);
 const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
 const Eigen::Vector3f kContactColor(0.96F, 0.72F, 0.10F);
 constexpr double kContactRadius = 0.16;  // of a brick
-constexpr std::size_t kMostContacts = 600;
+constexpr std::size_t kMaxContacts = 600;
 constexpr double kSpringRadius = 0.014;  // at rest, of a brick
 constexpr double kSpringGrowth = 2.5;    // of the radius, to the ends of the colours
 constexpr double kOpaqueSpring = 0.25;   // of the stretch at the ends of the colours
-constexpr double kLeastStretch = 1e-6;   // at the ends of the colours
+constexpr double kMinStretch = 1e-6;     // at the ends of the colours
 constexpr double kSmoothness = 0.1;      // pixels between a curved skin and its triangles
 constexpr double kEdgeRadius = 0.35;     // pixels
 constexpr double kShortEdge = 5;         // pixels; shorter ones are thinner, so that they do not blacken the skin
@@ -32,7 +32,7 @@ constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
 constexpr double kObstacleEdge = 0.08;   // of the largest body: light around a skin is known at its vertices
-constexpr double kMostEdges = 60;        // across an obstacle
+constexpr double kMaxEdges = 60;         // across an obstacle
 constexpr double kFloorSize = 0.5;       // of the largest body: the most that a square or a board of the floor has
 constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
@@ -93,7 +93,7 @@ SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time)
 
 FilmStage::FilmStage(const Film& film, const Simulation& simulation, const Recording& recording, double pixel,
                      ColorRanges ranges)
-    : scene_(film),
+    : film_(film),
       simulation_(simulation),
       recording_(recording),
       colors_(ranges.empty() || film.render.springs ? FieldColors(film, simulation, recording)
@@ -130,14 +130,14 @@ Stage FilmStage::stage(const AlignedBox& bounds, const std::optional<Environment
     stage.ghosts.push_back(item.is_ghost);
     stage.ids.push_back(item.id);
   }
-  stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
+  stage.color_map = film_.render.springs ? spring_colors(film_.render) : colors_.map();
   const std::optional<double> ground = ground_height(simulation_.world.obstacles);
-  stage.has_ground = ground && !scene_.render.transparent && scene_.render.floor != FloorKind::kNone;
+  stage.has_ground = ground && !film_.render.transparent && film_.render.floor != FloorKind::kNone;
   stage.floor =
-      floor_of(scene_.render.floor, scene_.render.floor_size.value_or(round_length(kFloorSize * simulation_.size)));
+      floor_of(film_.render.floor, film_.render.floor_size.value_or(round_length(kFloorSize * simulation_.size)));
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
-  stage.lighting = lighting_of(scene_.render, environment);
+  stage.lighting = lighting_of(film_.render, environment);
   stage.environment = environment;
   return stage;
 }
@@ -163,13 +163,13 @@ std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
   return shapes;
 }
 
-ColorRanges FilmStage::color_ranges() const { return scene_.render.springs ? stretches_ : colors_.ranges(); }
+ColorRanges FilmStage::color_ranges() const { return film_.render.springs ? stretches_ : colors_.ranges(); }
 
 std::optional<Legend> FilmStage::legend(std::size_t frame) const {
-  if (scene_.render.springs) {
+  if (film_.render.springs) {
     const ColorRange& range = range_in(stretches_, frame);
     return Legend{.title = "Springs, %",
-                  .map = spring_colors(scene_.render),
+                  .map = spring_colors(film_.render),
                   .low = 100 * range.low,
                   .high = 100 * range.high,
                   .swatches = {}};
@@ -179,12 +179,11 @@ std::optional<Legend> FilmStage::legend(std::size_t frame) const {
 }
 
 Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t body) const {
-  return colors_.is_mapped() && !scene_.render.springs ? colors_.map_coordinates(moment.frame, body)
-                                                       : Eigen::VectorXd();
+  return colors_.is_mapped() && !film_.render.springs ? colors_.map_coordinates(moment.frame, body) : Eigen::VectorXd();
 }
 
 /// The edges drawn are those of the mesh's own triangles.
-bool FilmStage::is_smooth() const { return scene_.render.smooth && !scene_.render.edges && std::isfinite(pixel_); }
+bool FilmStage::is_smooth() const { return film_.render.smooth && !film_.render.edges && std::isfinite(pixel_); }
 
 FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
   if (!is_smooth() || body.drawn.mesh == nullptr) {
@@ -200,11 +199,11 @@ FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
 
 void FilmStage::add_skin(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
-  const SceneBody& scene_body = scene_.bodies[simulation_.origins[row].body];
+  const SceneBody& scene_body = film_.bodies[simulation_.origins[row].body];
   const DrawnSkin drawn = drawn_skin(body);
-  const Color color = color_of(scene_body, *scene_.library).value_or(body.drawn.color);
+  const Color color = color_of(scene_body, *film_.library).value_or(body.drawn.color);
   items_.push_back(
-      {drawn.skin, srgb(color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
+      {drawn.skin, srgb(color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *film_.library), false,
        id_of(row),
        [this, row, &body, drawn, interpolation = scene_body.skin](const Moment& now) {
          SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, now.nodes[row], interpolation);
@@ -215,16 +214,16 @@ void FilmStage::add_skin(std::size_t row) {
          }
          return shape;
        },
-       colors_.is_mapped() ? 0 : mean_free_path_of(scene_body, *scene_.library)});
+       colors_.is_mapped() ? 0 : mean_free_path_of(scene_body, *film_.library)});
 }
 
 void FilmStage::add_bricks(std::size_t row) {
   const Body& body = simulation_.world.bodies[row];
-  const bool exploded = scene_.render.bricks == BrickView::kExploded;
-  const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs
+  const bool exploded = film_.render.bricks == BrickView::kExploded;
+  const Eigen::Vector3f color = colors_.is_mapped() && !film_.render.springs
                                     ? Eigen::Vector3f::Ones().eval()
                                     : srgb(simulation_.world.bodies[row].drawn.color);
-  const auto cubes = std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded,
+  const auto cubes = std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, film_.render.cut), exploded,
                                                         std::vector(body.grid.cells.size(), color));
   const auto skin = std::make_shared<const Skin>(with_shape(cubes->skin(), cubes->shape(body.rest_positions)));
   items_.push_back(
@@ -234,7 +233,7 @@ void FilmStage::add_bricks(std::size_t row) {
 
 void FilmStage::add_springs(std::size_t row) {
   const Body& body = simulation_.world.bodies[row];
-  const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, scene_.render.cut)));
+  const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, film_.render.cut)));
   const auto rods = std::make_shared<const Rods>(springs->nodes.size(), kSpringRadius * body.grid.brick_size);
   const auto shape = [this, springs, rods](const Points& nodes, std::size_t frame) {
     const auto [low, high] = range_in(stretches_, frame);
@@ -252,8 +251,8 @@ void FilmStage::add_springs(std::size_t row) {
 
 /// Symmetric; over all frames, so that colours mean the same in each, or by frame.
 ColorRanges FilmStage::stretch_ranges() const {
-  if (const std::optional<double>& stated = scene_.render.color_high) return {{-*stated, *stated}};
-  ColorRanges ranges(recording_.frames.size(), {-kLeastStretch, kLeastStretch});
+  if (const std::optional<double>& stated = film_.render.color_high) return {{-*stated, *stated}};
+  ColorRanges ranges(recording_.frames.size(), {-kMinStretch, kMinStretch});
   for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
     const Body& body = simulation_.world.bodies[row];
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
@@ -265,7 +264,7 @@ ColorRanges FilmStage::stretch_ranges() const {
       ranges[frame] = {-furthest, furthest};
     }
   }
-  if (has_range_per_frame(scene_.render)) return ranges;
+  if (has_range_per_frame(film_.render)) return ranges;
   const auto is_less = [](const ColorRange& a, const ColorRange& b) { return a.high < b.high; };
   return {*std::max_element(ranges.begin(), ranges.end(), is_less)};
 }
@@ -282,7 +281,7 @@ void FilmStage::add_edges(std::size_t row) {
     widths[i] = pixel > 0 ? std::min(1.0, way.norm() / (kShortEdge * pixel)) : 0;
   }
   const auto shape = [&body, rods, edges, widths,
-                      interpolation = scene_.bodies[simulation_.origins[row].body].skin](const Points& nodes) {
+                      interpolation = film_.bodies[simulation_.origins[row].body].skin](const Points& nodes) {
     const SkinShape skin = shape_of(body.grid, body.drawn.skin, body.drawn.embedding, nodes, interpolation);
     return rods->between(skin.positions.cast<double>(), edges, {.widths = widths});
   };
@@ -303,7 +302,7 @@ void FilmStage::add_balls(std::size_t body, std::vector<int> nodes, double radiu
 
 void FilmStage::add_nodes(std::size_t body) {
   const BrickGrid& grid = simulation_.world.bodies[body].grid;
-  const std::vector<bool> shown = bricks_left(grid, scene_.render.cut);
+  const std::vector<bool> shown = bricks_left(grid, film_.render.cut);
   std::vector<int> nodes;
   for (std::size_t brick = 0; brick < shown.size(); ++brick) {
     if (shown[brick]) nodes.insert(nodes.end(), grid.nodes[brick].begin(), grid.nodes[brick].end());
@@ -330,7 +329,7 @@ void FilmStage::add_ghost(std::size_t row) {
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
   Skin fine = obstacle.skin;
   if (is_smooth()) refine_curves(fine, kSmoothness * pixel_);
-  refine(fine, std::max(kObstacleEdge * simulation_.size, bounding_box(fine.positions).diagonal().norm() / kMostEdges));
+  refine(fine, std::max(kObstacleEdge * simulation_.size, bounding_box(fine.positions).diagonal().norm() / kMaxEdges));
   const auto skin = std::make_shared<const Skin>(std::move(fine));
   items_.push_back({skin, srgb(obstacle.color), Look::kPlastic, false, id,
                     [&obstacle, skin](const Moment& now) { return shape_of(obstacle, *skin, now.time); }});
@@ -339,7 +338,7 @@ void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
 void FilmStage::add_contacts() {
   const auto contacts = std::make_shared<const Contacts>(simulation_);
   const double brick = simulation_.world.bodies.front().grid.brick_size;
-  const auto balls = std::make_shared<const Balls>(kMostContacts, kContactRadius * brick);
+  const auto balls = std::make_shared<const Balls>(kMaxContacts, kContactRadius * brick);
   const auto shape = [contacts, balls](const Moment& now) {
     return balls->shape(contacts->at(now.nodes, now.time), now.nodes.front().row(0).transpose());
   };

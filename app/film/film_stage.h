@@ -80,7 +80,7 @@ class FilmStage {
   void add_edges(std::size_t body);
   [[nodiscard]] ColorRanges stretch_ranges() const;
 
-  const Film& scene_;
+  const Film& film_;
   const Simulation& simulation_;
   const Recording& recording_;
   FieldColors colors_;

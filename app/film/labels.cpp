@@ -12,8 +12,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kLongestBar = 0.2;     // of the picture's width
-constexpr double kMostForLegend = 0.4;  // of the picture's width
+constexpr double kLongestBar = 0.2;    // of the picture's width
+constexpr double kMaxForLegend = 0.4;  // of the picture's width
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Labels::Labels(const SceneRender& render, std::optional<Legend> legend, bool nam
 
 int Labels::reserved(int width, int height) const {
   if (!legend_) return 0;
-  return int(std::min(kMostForLegend * width, legend_width(*legend_, height, *font_)));
+  return int(std::min(kMaxForLegend * width, legend_width(*legend_, height, *font_)));
 }
 
 void Labels::write_name(Image& image, const std::string& name) const {

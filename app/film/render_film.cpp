@@ -76,8 +76,8 @@ bool has(const std::vector<Output>& outputs, Output::Kind kind) {
   return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
 }
 
-constexpr std::size_t kLeastFrames = 24;    // that justify a process
-constexpr std::size_t kMostProcesses = 16;  // by default: each needs memory for its own pictures
+constexpr std::size_t kMinFrames = 24;     // that justify a process
+constexpr std::size_t kMaxProcesses = 16;  // by default: each needs memory for its own pictures
 
 /// The frames to draw, and the outputs.
 struct Task {
@@ -172,7 +172,7 @@ std::size_t processes_for(const Task& task, int jobs) {
   if (task.render.sheet || task.render.quality == Quality::kFinal) return 1;  // which uses all cores for each picture
   if (jobs > 0) return std::min<std::size_t>(frames, jobs);
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
+  return std::clamp(frames / kMinFrames, std::size_t{1}, std::min(cores, kMaxProcesses));
 }
 
 void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,

@@ -116,7 +116,7 @@ Image draw_deepest(const Simulation& simulation, const std::vector<Points>& node
 
 CrossingsReport find_crossings(const CacheReader& cache, bool draws, const Observer& observer) {
   const Film film = cached_film(cache.header());
-  if (!is_motion(film)) throw Error(ErrorKind::kBadInput, "--crossings is about motions; the cache has none");
+  if (!is_motion(film)) throw Error(ErrorKind::kBadInput, "--crossings applies to motions; the cache has none");
   Simulation simulation = cached_simulation(cache.header(), film);
   CrossingsReport report;
   if (cache.frame_count() == 0) return report;

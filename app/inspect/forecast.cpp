@@ -93,10 +93,10 @@ class FrameClock : public Observer {
 
 /// The scene with bricks twice as large.
 Film coarsened(Film scene) {
-  constexpr int kLeastBricks = 4;
+  constexpr int kMinBricks = 4;
   for (SceneBody& body : scene.bodies) {
     if (body.brick_size) *body.brick_size *= 2;
-    if (body.bricks && !body.bricks->is_auto()) body.bricks->along = std::max(kLeastBricks, body.bricks->along / 2);
+    if (body.bricks && !body.bricks->is_auto()) body.bricks->along = std::max(kMinBricks, body.bricks->along / 2);
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks / 2;
   }
   scene.probes.clear();

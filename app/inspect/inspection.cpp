@@ -22,11 +22,11 @@ using Json = nlohmann::ordered_json;
 
 /// Whether every edge between positions has two triangles or more; triangles without three distinct corners do not
 /// count.
-bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
+bool is_closed(const Triangles& triangles, const std::vector<int>& point_of) {
   std::vector<std::array<int, 2>> edges;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     std::array<int, 3> corners{};
-    for (int c = 0; c < 3; ++c) corners[c] = place_of[triangles(t, c)];
+    for (int c = 0; c < 3; ++c) corners[c] = point_of[triangles(t, c)];
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(corners[c], corners[(c + 1) % 3]);
@@ -44,16 +44,16 @@ bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
 
 MeshFacts mesh_facts(const LoadedBody& body, double unit) {
   MeshFacts facts;
-  const std::vector<int> place_of = weld_points(body.mesh.positions);
+  const std::vector<int> point_of = weld_points(body.mesh.positions);
   std::set<int> used;
   for (const int vertex : std::span(body.mesh.triangles.data(), body.mesh.triangles.size())) {
-    used.insert(place_of[vertex]);
+    used.insert(point_of[vertex]);
   }
   facts.vertices = long(used.size());
   facts.triangles = body.mesh.triangles.rows();
   facts.parts = long(body.mesh.parts.size());
   facts.solids = long(body.solids.size());
-  facts.is_closed = is_closed(body.mesh.triangles, place_of);
+  facts.is_closed = is_closed(body.mesh.triangles, point_of);
   for (const Solid& solid : body.solids) facts.volume += solid.volume / (unit * unit * unit);
   std::vector<WallSample> all;
   for (const auto& walls : body.walls) all.insert(all.end(), walls.begin(), walls.end());
@@ -76,7 +76,7 @@ long shared_cells(const BrickGrid& grid) {
 void add_bricks(const Body& body, const std::vector<ThinPart>& thin_parts, BrickFacts& facts) {
   const BrickGrid& grid = body.grid;
   const double least = *std::min_element(grid.fill.begin(), grid.fill.end());
-  facts.least_fill = facts.count == 0 ? least : std::min(facts.least_fill, least);
+  facts.min_fill = facts.count == 0 ? least : std::min(facts.min_fill, least);
   facts.count += grid.brick_count();
   facts.nodes += grid.node_count();
   facts.solids += count_connected(grid);
@@ -153,7 +153,7 @@ std::string brick_lines(const BodyFacts& body) {
     text +=
         line("", fmt::format("{} share their cell with another piece of the solid", count_of(bricks.divided, "brick")));
   }
-  text += line("fill", fmt::format("{:.2g} at least; volume {:+.2g} % of the mesh's", bricks.least_fill,
+  text += line("fill", fmt::format("{:.2g} at least; volume {:+.2g} % of the mesh's", bricks.min_fill,
                                    100 * bricks.volume_error));
   for (std::size_t i = 0; i < std::min<std::size_t>(bricks.thin_parts.size(), 3); ++i) {
     const ThinPart& part = bricks.thin_parts[i];
@@ -212,7 +212,7 @@ Json json_of(const BrickFacts& bricks, double unit) {
           {"size", bricks.size},
           {"solids", bricks.solids},
           {"divided", bricks.divided},
-          {"min_fill", bricks.least_fill},
+          {"min_fill", bricks.min_fill},
           {"volume", bricks.volume / (unit * unit * unit)},
           {"volume_m3", bricks.volume},
           {"volume_error", bricks.volume_error},
@@ -259,7 +259,7 @@ BodyFacts together(const std::vector<BodyFacts>& bodies) {
     all.bricks.solids += bricks.solids;
     all.bricks.divided += bricks.divided;
     all.bricks.size = std::min(all.bricks.size, bricks.size);
-    all.bricks.least_fill = std::min(all.bricks.least_fill, bricks.least_fill);
+    all.bricks.min_fill = std::min(all.bricks.min_fill, bricks.min_fill);
     all.bricks.volume += bricks.volume;
     all.bricks.mass += bricks.mass;
     all.bricks.thin_parts.insert(all.bricks.thin_parts.end(), bricks.thin_parts.begin(), bricks.thin_parts.end());

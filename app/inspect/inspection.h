@@ -29,7 +29,7 @@ struct BrickFacts {
   long solids = 0;   // connected components
   long divided = 0;  // bricks that share their cell with another
   double size = 0;   // m
-  double least_fill = 0;
+  double min_fill = 0;
   double volume = 0;        // m^3
   double volume_error = 0;  // relative to the solids
   std::vector<ThinPart> thin_parts;

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostNamed = 3;  // singular places in the text
+constexpr std::size_t kMaxNamed = 3;  // singular places in the text
 
 }  // namespace
 
@@ -92,7 +92,7 @@ std::string stress_lines(const PartReport& report) {
   text += fmt::format(
       "  left out  {} where it grows with the bricks (a sharp inner corner, the edge of a support or load):\n",
       count_of(long(answer.singular.size()), "place"));
-  for (std::size_t i = 0; i < std::min(kMostNamed, answer.singular.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMaxNamed, answer.singular.size()); ++i) {
     text += fmt::format("            {} at {}\n", readable(answer.singular[i].stress, Dimension::kPressure),
                         place_text(answer.singular[i].position, report.part));
   }

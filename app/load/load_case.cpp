@@ -140,7 +140,7 @@ PartLoad on_face(const std::string& text, const std::vector<std::string>& fields
                               text, fields.back()));
     }
   }
-  if (!(load.amount != 0)) throw Error(ErrorKind::kUsage, fmt::format("--load '{}': a load of nothing", text));
+  if (!(load.amount != 0)) throw Error(ErrorKind::kUsage, fmt::format("--load '{}': the load is zero", text));
   load.direction = direction ? *direction : usual_direction(*quantity, *load.face, part, text);
   if (load.amount < 0 && quantity->dimension != Dimension::kPressure) {
     load.amount *= -1;

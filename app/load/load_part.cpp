@@ -193,7 +193,7 @@ std::optional<Vec3> direction_from(const std::string& text, const PartFace& face
   if (text == "in" || text == "out") {
     if (face.outward.norm() < 0.1) {
       throw Error(ErrorKind::kUsage,
-                  fmt::format("'{}' has no one outward direction: name one, +x ... -z or X,Y,Z", face.name));
+                  fmt::format("'{}' has no single outward direction: name one, +x ... -z or X,Y,Z", face.name));
     }
     return face.outward.normalized() * (text == "in" ? -1 : 1);
   }

@@ -25,7 +25,7 @@ constexpr double kArrow = 0.16;    // of the longest side
 constexpr double kCone = 0.045;
 constexpr double kBall = 0.011;
 constexpr double kApart = 0.13;  // symbols on a face
-constexpr std::size_t kMostSymbols = 12;
+constexpr std::size_t kMaxSymbols = 12;
 constexpr double kUtmost = 0.002;  // of the stresses that may lie beyond the colours if the peak is singular
 constexpr double kAzimuth = 35;
 constexpr double kElevation = 22;
@@ -113,7 +113,7 @@ std::vector<LoadPicture::Spot> LoadPicture::spots_on(const PartFace& face) const
   // The one furthest from those chosen comes next.
   std::vector<Spot> spots;
   std::vector<double> distances(candidates.size(), 1e300);
-  while (spots.size() < kMostSymbols && !candidates.empty()) {
+  while (spots.size() < kMaxSymbols && !candidates.empty()) {
     const auto next = std::max_element(distances.begin(), distances.end()) - distances.begin();
     if (!spots.empty() && distances[next] < kApart * longest_) break;
     spots.push_back(candidates[next]);

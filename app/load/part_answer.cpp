@@ -17,7 +17,7 @@ namespace {
 constexpr double kSafetyOfTwoGrids = 3;  // Roache's
 constexpr double kAround = 1.5;          // bricks of the coarser grid: search radius for its value at a position
 constexpr double kLeftOut = 3;           // of its bricks, around a singular place
-constexpr int kMostSingular = 60;        // places; beyond that nothing is resolved
+constexpr int kMaxSingular = 60;         // places; beyond that nothing is resolved
 
 }  // namespace
 
@@ -123,7 +123,7 @@ FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const 
     }
     singular.push_back(position);
     found.singular.push_back({.position = peak.position, .stress = fine[row], .exponent = exponent});
-    if (int(singular.size()) == kMostSingular) return found;
+    if (int(singular.size()) == kMaxSingular) return found;
   }
   return found;
 }

@@ -52,7 +52,7 @@ void check_supported(const PartSolution& solution, const LoadPart& part) {
     const Vec3 middle = part.file_from_rest(bounding_box(skin).center());
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("{}: nothing holds solid {} of {}, which lies about ({:.4g}, {:.4g}, {:.4g}) {}: solids of a "
+        fmt::format("{}: solid {} of {}, about ({:.4g}, {:.4g}, {:.4g}) {}, has no support: solids of a "
                     "file that touch or overlap in parts are not joined; --fix something of it, or unite them",
                     part.loaded.name, row + 1, bodies.size(), middle.x(), middle.y(), middle.z(), part.unit_name));
   }

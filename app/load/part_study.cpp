@@ -22,8 +22,8 @@ namespace {
 constexpr double kLargeDisplacement = 0.1;  // of the longest side, at which linear theory is 1 % off in a cantilever
 constexpr double kTooLarge = 0.2;           // likewise, from which a linear solution warns
 constexpr double kFewBricks = 10000;
-constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
-constexpr double kMostNonlinear = 60000;  // since each takes some ten solves
+constexpr double kMaxBricks = 250000;    // of the finest grid, by default: some seconds
+constexpr double kMaxNonlinear = 60000;  // since each takes some ten solves
 
 /// Passes each warning on once: the mesh is read anew for every grid.
 class OnceObserver : public Observer {
@@ -92,11 +92,11 @@ void check_size(const LoadPart& part, const Observer& observer) {
 void check_case(const PartQuestion& question) {
   if (question.fixes.empty()) {
     throw Error(ErrorKind::kUsage,
-                "nothing holds the part: --fix WHERE, one of x-low, x-high, y-low, y-high, z-low, z-high, "
+                "the part has no support: --fix WHERE, one of x-low, x-high, y-low, y-high, z-low, z-high, "
                 "face=X,Y,Z, or the name of a part of the mesh");
   }
   if (question.loads.empty()) {
-    throw Error(ErrorKind::kUsage, "nothing loads the part: --load WHERE:50N, --load y-high:2MPa, --load weight");
+    throw Error(ErrorKind::kUsage, "the part has no load: --load WHERE:50N, --load y-high:2MPa, --load weight");
   }
 }
 
@@ -106,7 +106,7 @@ PartBricks bricks_for(const LoadPart& part, bool linear) {
   if (part.body.bricks && !part.body.bricks->is_auto()) {
     return part_bricks_from(part.loaded, longest / part.body.bricks->along);
   }
-  return choose_part_bricks(part.loaded, linear ? kMostBricks : kMostNonlinear);
+  return choose_part_bricks(part.loaded, linear ? kMaxBricks : kMaxNonlinear);
 }
 
 /// Whether linear theory is requested or, according to the coarsest grid, suffices.

@@ -151,7 +151,7 @@ void LiveWorld::step(double dt, long count, const Between& between) {
 void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   SoftBody& body = simulation_.world.bodies[row];
   if (body.pinned.empty() && simulation_.origins[row].pinned_skins.empty()) {
-    throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
+    throw Error(ErrorKind::kBadInput, "a body without pinned nodes has no equilibrium: pin() some of them first");
   }
   if (const std::vector<MotionOnly> parts = motion_only(scene_); !parts.empty()) {
     throw Error(ErrorKind::kBadInput,

@@ -61,7 +61,7 @@ const OptionDefault* OptionDefaults::find(std::string_view command, std::string_
   return found;
 }
 
-std::string OptionDefaults::place(const OptionDefault& one) const {
+std::string OptionDefaults::location(const OptionDefault& one) const {
   return fmt::format("{}:{}", file.string(), one.line);
 }
 

@@ -24,7 +24,7 @@ struct OptionDefaults {
   /// The default for the command, else that for all; null: none.
   [[nodiscard]] const OptionDefault* find(std::string_view command, std::string_view option) const;
   /// "sprung.toml:3"
-  [[nodiscard]] std::string place(const OptionDefault& one) const;
+  [[nodiscard]] std::string location(const OptionDefault& one) const;
 };
 
 /// The TOML file that the environment variable SPRUNG_CONFIG names, or else sprung.toml in the working folder or the

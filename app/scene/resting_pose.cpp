@@ -13,13 +13,13 @@ constexpr double kTilt = 15;          // degrees
 constexpr double kFinestTilt = 0.02;  // degrees
 constexpr int kDirections = 16;       // in which a body is tilted
 constexpr double kNeutral = 0.02;     // of the height of the centre of mass: a sphere does not count as falling
-constexpr Eigen::Index kMostPoints = 20000;
+constexpr Eigen::Index kMaxPoints = 20000;
 
 /// A body and the ground, in the frame of the body.
 class BodyOnGround {
  public:
   BodyOnGround(const Points& points, const Vec3& centre) {
-    const Eigen::Index stride = (points.rows() + kMostPoints - 1) / kMostPoints;
+    const Eigen::Index stride = (points.rows() + kMaxPoints - 1) / kMaxPoints;
     spokes_.resize((points.rows() + stride - 1) / stride, 3);
     for (Eigen::Index row = 0; row < spokes_.rows(); ++row) {
       spokes_.row(row) = points.row(row * stride) - centre.transpose();

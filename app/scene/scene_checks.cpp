@@ -24,13 +24,13 @@ void check_rule(const KeyRule& rule, const std::vector<std::string_view>& all_gi
   std::copy_if(rule.keys.begin(), rule.keys.end(), std::back_inserter(given), [&](std::string_view key) {
     return std::find(all_given.begin(), all_given.end(), key) != all_given.end();
   });
-  if (rule.kind == KeyRule::kNeeds) {
+  if (rule.relation == KeyRule::kNeeds) {
     if (given.size() != 1 || given[0] != rule.keys[0]) return;
     report({given[0]}, fmt::format("{}: '{}' is for a {} with '{}'", path, given[0], path.substr(path.rfind('.') + 1),
                                    rule.keys[1]));
-  } else if (given.empty() && rule.kind != KeyRule::kAtMostOne) {
+  } else if (given.empty() && rule.relation != KeyRule::kAtMostOne) {
     report({}, fmt::format("{} lacks the key {}", path, list_of(rule)));
-  } else if (given.size() > 1 && rule.kind != KeyRule::kAnyOf) {
+  } else if (given.size() > 1 && rule.relation != KeyRule::kAnyOf) {
     report({given[1]}, fmt::format("{}: give {} or {}, not both", path, given[0], given[1]));
   }
 }

@@ -43,13 +43,13 @@ struct KeyInfo {
 
 /// A rule between the keys of one table.
 struct KeyRule {
-  enum Kind {
+  enum Relation {
     kOneOf,      // exactly one of them
     kAnyOf,      // one at least
     kAtMostOne,  // two exclude each other
     kNeeds       // the first only with the second
   };
-  Kind kind;
+  Relation relation;
   std::vector<std::string_view> keys;
 };
 

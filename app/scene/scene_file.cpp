@@ -49,7 +49,7 @@ toml::table parse_toml(std::string_view text, Mistakes& mistakes) {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const bool is_utf8 = error.description().find("utf-8") == std::string_view::npos;
-    mistakes.add(error.source(), is_utf8 ? std::string(error.description()) : "not a text in UTF-8; save it as such");
+    mistakes.add(error.source(), is_utf8 ? std::string(error.description()) : "not UTF-8 text; save it as UTF-8");
     mistakes.throw_if_any();
     throw;
   }

@@ -255,7 +255,7 @@ written as [sections] or in braces.
 std::string rule_text(const KeyRule& rule) {
   std::vector<std::string> keys;
   for (const std::string_view key : rule.keys) keys.push_back(fmt::format("`{}`", key));
-  switch (rule.kind) {
+  switch (rule.relation) {
     case KeyRule::kOneOf:
       return fmt::format("Exactly one of {}.", fmt::join(keys, ", "));
     case KeyRule::kAnyOf:
@@ -271,11 +271,11 @@ std::string rule_text(const KeyRule& rule) {
 /// Members of the "allOf" of a table.
 std::vector<Json> rule_schemas(const KeyRule& rule) {
   const auto required_keys = [](const std::vector<std::string_view>& keys) { return Json{{"required", keys}}; };
-  if (rule.kind == KeyRule::kNeeds) {
+  if (rule.relation == KeyRule::kNeeds) {
     return {{{"dependentRequired", {{std::string(rule.keys[0]), Json::array({rule.keys[1]})}}}}};
   }
   std::vector<Json> schemas;
-  if (rule.kind == KeyRule::kAtMostOne) {
+  if (rule.relation == KeyRule::kAtMostOne) {
     for (std::size_t i = 0; i < rule.keys.size(); ++i) {
       for (std::size_t j = i + 1; j < rule.keys.size(); ++j) {
         schemas.push_back({{"not", required_keys({rule.keys[i], rule.keys[j]})}});
@@ -284,7 +284,7 @@ std::vector<Json> rule_schemas(const KeyRule& rule) {
     return schemas;
   }
   for (const std::string_view key : rule.keys) schemas.push_back(required_keys({key}));
-  return {{{rule.kind == KeyRule::kOneOf ? "oneOf" : "anyOf", schemas}}};
+  return {{{rule.relation == KeyRule::kOneOf ? "oneOf" : "anyOf", schemas}}};
 }
 
 Json table_schema(const TableText& table) {

@@ -144,7 +144,7 @@ struct KeySetter {
   void table(std::string_view, const std::vector<KeyRule>& rules = {}) {
     for (const KeyRule& rule : rules) {
       const bool is_meant = std::find(rule.keys.begin(), rule.keys.end(), name) != rule.keys.end();
-      if (!is_meant || (rule.kind != KeyRule::kAtMostOne && rule.kind != KeyRule::kOneOf)) continue;
+      if (!is_meant || (rule.relation != KeyRule::kAtMostOne && rule.relation != KeyRule::kOneOf)) continue;
       std::copy_if(rule.keys.begin(), rule.keys.end(), std::back_inserter(rivals),
                    [&](std::string_view key) { return key != name; });
     }

@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostValues = 10000;  // of a range
+constexpr double kMaxValues = 10000;  // of a range
 
 struct Number {
   double value;
@@ -50,11 +50,11 @@ void add_values(std::string_view word, std::vector<std::string>& values) {
   }
   const auto& [first, last, step] = *range;
   const double steps = std::floor((last.value - first.value) / step.value + 1e-9);
-  if (!(steps >= 0 && steps < kMostValues)) {
+  if (!(steps >= 0 && steps < kMaxValues)) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("--set: {}: a range is FIRST:LAST:STEP, with a step that leads from one to the other in at "
                             "most {} values",
-                            word, kMostValues));
+                            word, kMaxValues));
   }
   for (int i = 0; i <= int(steps); ++i)
     values.push_back(fmt::format("{:.10g}{}", first.value + i * step.value, first.unit));

@@ -88,7 +88,7 @@ std::span<const Case> built_in_cases() {
        "follows: below 10 % of strain the choice matters little, beyond it the law is part of the answer. The laws of "
        "the bricks differ in how much of the stiffness is in diagonals, which rotate as the brick is stretched.",
        plain(run_uniaxial), nullptr},
-      {"tables", "published cases that nobody here made: displacements, stresses, frequencies",
+      {"tables", "published cases from the literature: displacements, stresses, frequencies",
        "Straight, curved and twisted beams, membranes, plates, tubes and vibrations from the literature, each on one "
        "grid "
        "of bricks, in the units of its source. Stresses are those recovered at the point of the surface that the "

@@ -19,7 +19,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::size_t kMostRows = 16;  // of a table that is not folded
+constexpr std::size_t kMaxRows = 16;  // of a table that is not folded
 
 /// `look` is a list of classes of the style sheet.
 struct Cell {
@@ -185,7 +185,7 @@ std::string html_checks(const std::vector<Check>& checks) {
     Matrix matrix(checks, by_ratio, rows_name_rest);
     if (matrix.is_useful() && (!best || matrix.keys.size() < best->keys.size())) best = std::move(matrix);
   }
-  if (!best && checks.size() <= kMostRows) return full_table(checks);
+  if (!best && checks.size() <= kMaxRows) return full_table(checks);
   return fmt::format(
       "{}<details><summary>all {} measurements with expected values and sources</summary>\n{}</details>\n",
       best ? best->html() : "", checks.size(), full_table(checks));

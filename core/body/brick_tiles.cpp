@@ -59,18 +59,18 @@ FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares)
 namespace {
 
 /// Numbers the points of a lattice whose nodes are in its order.
-std::vector<int> places_of(const std::vector<Eigen::Vector3i>& lattice) {
-  std::vector<int> places(lattice.size(), 0);
+std::vector<int> slots_of(const std::vector<Eigen::Vector3i>& lattice) {
+  std::vector<int> slots(lattice.size(), 0);
   for (std::size_t i = 1; i < lattice.size(); ++i) {
-    places[i] = places[i - 1] + (lattice[i] == lattice[i - 1] ? 0 : 1);
+    slots[i] = slots[i - 1] + (lattice[i] == lattice[i - 1] ? 0 : 1);
   }
-  return places;
+  return slots;
 }
 
 /// The occupant of a lattice point in each layer.
 class Holders {
  public:
-  explicit Holders(const std::vector<Eigen::Vector3i>& lattice) : places_(places_of(lattice)) {}
+  explicit Holders(const std::vector<Eigen::Vector3i>& lattice) : slots_(slots_of(lattice)) {}
 
   /// The first layer in which these nodes meet no others.
   [[nodiscard]] std::size_t layer_for(const std::array<int, 8>& nodes) const {
@@ -80,19 +80,19 @@ class Holders {
   }
   void put(std::size_t layer, const std::array<int, 8>& nodes) {
     if (layer == holders_.size()) holders_.emplace_back();
-    for (const int node : nodes) holders_[layer].emplace(place_of(node), node);
+    for (const int node : nodes) holders_[layer].emplace(slot_of(node), node);
   }
 
  private:
-  [[nodiscard]] int place_of(int node) const { return places_[node]; }
+  [[nodiscard]] int slot_of(int node) const { return slots_[node]; }
   [[nodiscard]] bool is_free(const std::unordered_map<int, int>& holders, const std::array<int, 8>& nodes) const {
     return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
-      const auto found = holders.find(place_of(node));
+      const auto found = holders.find(slot_of(node));
       return found == holders.end() || found->second == node;
     });
   }
 
-  std::vector<int> places_;
+  std::vector<int> slots_;
   std::vector<std::unordered_map<int, int>> holders_;
 };
 
@@ -128,10 +128,10 @@ struct Box {
   Cell high;  // one past
 };
 
-constexpr int kMostWide = 96;      // bricks along x
-constexpr int kMostBricks = 8192;  // of a tile
-constexpr int kLeastDeep = 4;      // bricks along z, since planes between tiles are computed twice
-constexpr int kShortRow = 24;      // places
+constexpr int kMaxWide = 96;      // bricks along x
+constexpr int kMaxBricks = 8192;  // of a tile
+constexpr int kMinDeep = 4;       // bricks along z, since planes between tiles are computed twice
+constexpr int kShortRow = 24;     // slots
 
 constexpr int kShared = -2;  // owner of nodes that more than one tile has
 
@@ -154,11 +154,11 @@ int pitch_of(int bricks_along_x) { return std::max(bricks_along_x, kPackPadding)
 
 /// The parts of a box of this size along each axis: two planes of nodes fit a core's own cache.
 Cell cuts_of(const Cell& size) {
-  const int x = parts_of(size.x(), kMostWide);
+  const int x = parts_of(size.x(), kMaxWide);
   const int wide = parts_of(size.x(), x);
-  const int y = parts_of(size.y(), kMostPlaces / pitch_of(wide) - 1);
+  const int y = parts_of(size.y(), kMaxSlots / pitch_of(wide) - 1);
   const int rows = parts_of(size.y(), y);
-  return {x, y, parts_of(size.z(), std::max(kMostBricks / (wide * rows), kLeastDeep))};
+  return {x, y, parts_of(size.z(), std::max(kMaxBricks / (wide * rows), kMinDeep))};
 }
 
 /// The bricks of each tile, ascending.
@@ -168,8 +168,8 @@ std::vector<std::vector<int>> cut(const BrickGrid& grid, const std::vector<int>&
   const Cell counts = cuts_of(size);
   std::vector<std::vector<int>> tiles(counts.prod());
   for (const int brick : bricks) {
-    const Cell place = grid.cells[brick] - box.low;
-    const Cell tile = place.cwiseProduct(counts).cwiseQuotient(size);
+    const Cell slot = grid.cells[brick] - box.low;
+    const Cell tile = slot.cwiseProduct(counts).cwiseQuotient(size);
     tiles[tile.x() + counts.x() * (tile.y() + counts.y() * tile.z())].push_back(brick);
   }
   std::erase_if(tiles, [](const std::vector<int>& tile) { return tile.empty(); });
@@ -207,8 +207,8 @@ class TileMaker {
     const Cell size = box_.high - box_.low;
     tile_.pitch = pitch_of(size.x());
     tile_.planes = size.z() + 1;
-    places_ = kFirstPlace + (size.y() + 1) * tile_.pitch + kPackPadding;
-    const auto all = std::size_t(tile_.planes) * std::size_t(places_);
+    slots_ = kFirstSlot + (size.y() + 1) * tile_.pitch + kPackPadding;
+    const auto all = std::size_t(tile_.planes) * std::size_t(slots_);
     bricks_.assign(all, -1);
     nodes_.assign(all, -1);
     for (std::vector<double>& face : last_faces_) face.assign(all, 0);
@@ -220,7 +220,7 @@ class TileMaker {
       list_nodes(plane);
       list_pulled(plane, owners, false);
       list_pulled(plane, owners, true);
-      list_places(plane);
+      list_slots(plane);
       list_bricks(plane);
       for (const std::vector<double>& face : last_faces_) list_faces(plane, face);
     }
@@ -230,13 +230,13 @@ class TileMaker {
 
  private:
   [[nodiscard]] std::size_t slot(int plane, int index) const {
-    return std::size_t(plane) * std::size_t(places_) + std::size_t(index);
+    return std::size_t(plane) * std::size_t(slots_) + std::size_t(index);
   }
 
   void put(const BrickGrid& grid, int brick) {
     const std::size_t b = brick;
     const Cell cell = grid.cells[b] - box_.low;
-    const int index = kFirstPlace + cell.y() * tile_.pitch + cell.x();
+    const int index = kFirstSlot + cell.y() * tile_.pitch + cell.x();
     bricks_[slot(cell.z(), index)] = brick;
     for (int corner = 0; corner < 8; ++corner) {
       const int there = index + (on_high_side(corner, 0) ? 1 : 0) + (on_high_side(corner, 1) ? tile_.pitch : 0);
@@ -251,16 +251,16 @@ class TileMaker {
   /// Lists are made in the order of RunKind, plane by plane.
   void close_list() { tile_.first_run.push_back(isize(tile_.runs)); }
 
-  /// Calls visit(index, count) for packs that hold all such places, as long as they follow each other. They begin at
+  /// Calls visit(index, count) for packs that hold all such slots, as long as they follow each other. They begin at
   /// multiples of a pack, where fewer loads straddle two cache lines, except for a short row that then takes one less.
   template <class IsIn, class Visit>
   void each_run_of_packs(const IsIn& is_in, const Visit& visit) const {
     int begin = 0;
     int end = 0;
-    for (int index = 0; index < places_; ++index) {
+    for (int index = 0; index < slots_; ++index) {
       if (index < end || !is_in(index)) continue;
       int row_end = index + 1;
-      while (row_end < places_ && is_in(row_end)) ++row_end;
+      while (row_end < slots_ && is_in(row_end)) ++row_end;
       const auto packs_from = [&](int first) { return parts_of(row_end - first, kPackPadding); };
       const int aligned = index & -kPackPadding;
       const bool is_short = row_end - index <= kShortRow && packs_from(index) < packs_from(aligned);
@@ -283,8 +283,8 @@ class TileMaker {
   template <class IsIn, class Visit>
   void each_run_of_nodes(int plane, const IsIn& is_in, const Visit& visit) const {
     const auto node_at = [&](int index) { return nodes_[slot(plane, index)]; };
-    const auto has = [&](int index) { return index < places_ && node_at(index) >= 0 && is_in(node_at(index)); };
-    for (int index = 0; index < places_; ++index) {
+    const auto has = [&](int index) { return index < slots_ && node_at(index) >= 0 && is_in(node_at(index)); };
+    for (int index = 0; index < slots_; ++index) {
       if (!has(index)) continue;
       const int begin = index;
       while (has(index + 1) && node_at(index + 1) == node_at(index) + 1) ++index;
@@ -312,7 +312,7 @@ class TileMaker {
         });
   }
 
-  void list_places(int plane) {
+  void list_slots(int plane) {
     close_list();
     each_run_of_packs([&](int index) { return nodes_[slot(plane, index)] >= 0; },
                       [&](int index, int count) { add_run(index, count, 0); });
@@ -353,8 +353,8 @@ class TileMaker {
   const PackNumbers& numbers_;
   const FaceShares& faces_;
   Box box_;
-  int places_ = 0;                                 // of a plane, with room for a pack behind the last node
-  std::vector<int> bricks_;                        // at each place of each plane, or -1
+  int slots_ = 0;                                  // of a plane, with room for a pack behind the last node
+  std::vector<int> bricks_;                        // at each slot of each plane, or -1
   std::vector<int> nodes_;                         // likewise
   std::array<std::vector<double>, 3> last_faces_;  // xy, zx and yz: shares, likewise, or 0
   BrickTile tile_;

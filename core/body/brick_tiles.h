@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 #include "core/bricks/brick_grid.h"
 
 namespace sprung {

@@ -18,15 +18,15 @@ namespace {
 constexpr int kSharedPerTask = 256;  // rows
 constexpr int kFewBricks = 4000;     // faster on one thread than waking another
 
-PassInput input_of(const Body& body, Pass pass) {
-  PassInput input;
-  input.pass = pass;
+KernelInput input_of(const Body& body, KernelTask task) {
+  KernelInput input;
+  input.task = task;
   input.law = body.law;
   input.is_solid = body.model == Model::kNeoHooke;
   if (input.is_solid) input.solid = solid_law(body.material, body.grid.brick_size);
   input.brick_size = body.grid.brick_size;
   input.beta = body.damping.beta;
-  // Only Pass::kMove, which has the body to itself, writes there.
+  // Only KernelTask::kMove, which has the body to itself, writes there.
   input.positions = const_cast<double*>(body.positions.data());
   input.velocities = const_cast<double*>(body.velocities.data());
   return input;
@@ -48,7 +48,7 @@ void each(std::size_t count, std::size_t per_task, const Visit& visit) {
 
 }  // namespace
 
-void SpringSystem::run(const Body& body, const PassInput& input) {
+void SpringSystem::run(const Body& body, const KernelInput& input) {
   const BrickTiles& tiles = *body.tiles;
   const std::size_t tiles_per_task = body.grid.brick_count() < kFewBricks ? tiles.tiles.size() : 1;
   shared_.resize(tiles.shared_size);
@@ -62,13 +62,13 @@ void SpringSystem::run(const Body& body, const PassInput& input) {
     if (scratch.empty()) scratch.resize(kScratchSize / 8);
     kernel_.tile(tile.view(), input, scratch.front().values, shared_.data() + tile.shared_offset, energies_[i]);
   });
-  if (input.pass == Pass::kEnergy) return;
+  if (input.task == KernelTask::kEnergy) return;
   each(tiles.shared.size(), kSharedPerTask,
        [&](std::size_t i) { kernel_.shared(tiles.shared[i], tiles.parts.data(), shared_.data(), input); });
 }
 
 void SpringSystem::forces(const Body& body, Points& forces) {
-  PassInput input = input_of(body, Pass::kForces);
+  KernelInput input = input_of(body, KernelTask::kForces);
   forces.resize(body.node_count(), 3);
   input.forces = forces.data();
   run(body, input);
@@ -77,18 +77,19 @@ void SpringSystem::forces(const Body& body, Points& forces) {
 }
 
 void SpringSystem::multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product) {
-  run_product(body, input_of(body, Pass::kProduct), u, product);
+  run_product(body, input_of(body, KernelTask::kProduct), u, product);
 }
 
 void SpringSystem::multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                                   Eigen::VectorXd& product) {
-  PassInput input = input_of(body, Pass::kDamping);
+  KernelInput input = input_of(body, KernelTask::kDamping);
   input.beta = -factor;
   input.positions = const_cast<double*>(positions.data());
   run_product(body, input, u, product);
 }
 
-void SpringSystem::run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product) {
+void SpringSystem::run_product(const Body& body, KernelInput input, const Eigen::VectorXd& u,
+                               Eigen::VectorXd& product) {
   product.resize(u.size());
   input.velocities = const_cast<double*>(u.data());
   input.forces = product.data();
@@ -97,7 +98,7 @@ void SpringSystem::run_product(const Body& body, PassInput input, const Eigen::V
 }
 
 double SpringSystem::energy(const Body& body) {
-  PassInput input = input_of(body, Pass::kEnergy);
+  KernelInput input = input_of(body, KernelTask::kEnergy);
   run(body, input);
   double sum = 0;
   for (const auto& lanes : energies_) {
@@ -108,7 +109,7 @@ double SpringSystem::energy(const Body& body) {
 }
 
 void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses) {
-  PassInput input = input_of(body, Pass::kMove);
+  KernelInput input = input_of(body, KernelTask::kMove);
   input.inverse_masses = inverse_masses.data();
   input.beta = step.damping.beta;
   input.drift = step.drift;

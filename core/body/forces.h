@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 
 namespace sprung {
 
@@ -41,8 +41,8 @@ class SpringSystem {
   void move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses);
 
  private:
-  void run(const Body& body, const PassInput& input);
-  void run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
+  void run(const Body& body, const KernelInput& input);
+  void run_product(const Body& body, KernelInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
   /// Scratch in whole cache lines: a pack that straddles two costs twice as much.
   struct alignas(64) CacheLine {

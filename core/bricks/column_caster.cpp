@@ -14,7 +14,7 @@ constexpr std::int64_t kRayPitch = kSnap / kRays;
 constexpr std::int64_t kShuffle = 5;
 
 /// The weight of a direction whose rays do not cross the surface in a cell: decisive only if none do.
-constexpr float kLeastWeight = 1e-6F;
+constexpr float kMinWeight = 1e-6F;
 
 struct Intersection {
   std::int64_t ray;  // rays of one column of cells are consecutive
@@ -56,7 +56,7 @@ class Caster {
 
  private:
   /// The position of the ray of row `row` in cell `cell_u` of that row.
-  static SnappedPoint place_of(std::int64_t cell_u, std::int64_t row) {
+  static SnappedPoint position_of(std::int64_t cell_u, std::int64_t row) {
     return {cell_u * kSnap + (row * kShuffle % kRays) * kRayPitch + kRayPitch / 2, row * kRayPitch + kRayPitch / 2};
   }
 
@@ -74,7 +74,7 @@ class Caster {
     const std::int64_t last_cell = std::min<std::int64_t>(high_u / kSnap, surface_.counts[axis_u_] - 1);
     for (std::int64_t row = low_v / kRayPitch; row <= last_row; ++row) {
       for (std::int64_t cell = low_u / kSnap; cell <= last_cell; ++cell) {
-        const std::optional<double> depth = triangle.depth_at(place_of(cell, row));
+        const std::optional<double> depth = triangle.depth_at(position_of(cell, row));
         if (depth) crossings_.push_back({ray_number(cell, row), *depth, triangle.turn()});
       }
     }
@@ -132,7 +132,7 @@ class Caster {
     auto at = std::size_t(cell % surface_.counts[axis_u_] * stride_of(axis_u_) +
                           cell / surface_.counts[axis_u_] * stride_of(axis_v_));
     for (std::size_t i = 0; i < column.lengths.size(); ++i) {
-      const float weight = column.crossings[i] * column.crossings[i] + kLeastWeight;
+      const float weight = column.crossings[i] * column.crossings[i] + kMinWeight;
       sums.weighted[at] += weight * column.lengths[i] / float(kRays);
       sums.weight[at] += weight;
       at += std::size_t(stride_of(axis_));

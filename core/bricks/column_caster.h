@@ -19,7 +19,7 @@ struct CellSurface {
 };
 
 /// The most cells along one axis for which the caster's integer arithmetic is exact.
-inline constexpr int kMostCellsPerAxis = 1 << 16;
+inline constexpr int kMaxCellsPerAxis = 1 << 16;
 
 /// Estimates of each cell's fill by rays along the axes; x fastest, then y, then z.
 struct CellSums {

@@ -206,28 +206,28 @@ SmoothEmbedding::SmoothEmbedding(const BrickGrid& grid, const Points& nodes)
   for (std::size_t node = 0; node < counts.size(); ++node) gradients_[node] /= std::max(counts[node], 1);
 }
 
-SmoothEmbedding::Place SmoothEmbedding::place(int brick, const Vec3& local) const {
+SmoothEmbedding::Sample SmoothEmbedding::sample(int brick, const Vec3& local) const {
   const Vec3 inside = local.cwiseMax(0.0).cwiseMin(1.0);
   const Vec3 step = inside.array().square() * (3 - 2 * inside.array());
   const Vec3 slope = 6 * inside.array() * (1 - inside.array()) / grid_.brick_size;
   const CornerWeights weights = trilinear_weights(step);
   const Eigen::Matrix<double, 8, 3> weight_gradients = trilinear_gradients(step) * slope.asDiagonal();
-  Place place{Vec3::Zero(), Mat3::Zero()};
+  Sample sample{Vec3::Zero(), Mat3::Zero()};
   for (int corner = 0; corner < 8; ++corner) {
     const int node = grid_.nodes[brick][corner];
     const Mat3& gradient = gradients_[node];
     const Vec3 there = nodes_.row(node).transpose() + grid_.brick_size * (gradient * (local - corner_place(corner)));
-    place.position += weights[corner] * there;
-    place.gradient += weights[corner] * gradient + there * weight_gradients.row(corner);
+    sample.position += weights[corner] * there;
+    sample.gradient += weights[corner] * gradient + there * weight_gradients.row(corner);
   }
-  return place;
+  return sample;
 }
 
 Points SmoothEmbedding::points(const Embedding& embedding) const {
   Points deformed(embedding.local.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
-      deformed.row(i) = place(embedding.brick[i], embedding.local.row(i)).position.transpose();
+      deformed.row(i) = sample(embedding.brick[i], embedding.local.row(i)).position.transpose();
     }
   });
   return deformed;
@@ -237,7 +237,7 @@ Points SmoothEmbedding::normals(const Embedding& embedding, const Points& at_res
   Points deformed(at_rest.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
-      const Mat3 f = place(embedding.brick[i], embedding.local.row(i)).gradient;
+      const Mat3 f = sample(embedding.brick[i], embedding.local.row(i)).gradient;
       Mat3 cofactors;
       cofactors << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
       deformed.row(i) = cofactors * at_rest.row(i).transpose();

@@ -55,11 +55,11 @@ class SmoothEmbedding {
   [[nodiscard]] Points normals(const Embedding& embedding, const Points& at_rest) const;
 
  private:
-  struct Place {
+  struct Sample {
     Vec3 position;
     Mat3 gradient;
   };
-  [[nodiscard]] Place place(int brick, const Vec3& local) const;
+  [[nodiscard]] Sample sample(int brick, const Vec3& local) const;
 
   const BrickGrid& grid_;
   const Points& nodes_;

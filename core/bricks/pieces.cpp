@@ -65,7 +65,7 @@ std::vector<PieceItem> PieceList::items(int brick) const {
   const int samples = int(whole.lines.size() + (cell == nullptr ? 0 : cell->spots.size()));
   for (int sample = 0; sample < samples; ++sample) {
     const int piece = at(brick, sample);
-    if (piece >= 0) items.push_back({samples_.place_of(cell == nullptr ? whole : *cell, sample), piece});
+    if (piece >= 0) items.push_back({samples_.position_of(cell == nullptr ? whole : *cell, sample), piece});
   }
   return items;
 }
@@ -318,7 +318,7 @@ SolidPatch patch_of(const PieceList& list, int piece, int row) {
     if (sample < patch.samples.size()) {
       patch.samples.set(sample);
     } else {
-      const Vec3 position = list.samples().place_of(cell, int(sample));
+      const Vec3 position = list.samples().position_of(cell, int(sample));
       patch.spots.emplace_back((position - at.cast<double>()).cast<float>());
     }
   }

@@ -191,7 +191,7 @@ int absorb_hinged(BrickGrid& grid) {
 
 }  // namespace
 
-int absorb_slivers(BrickGrid& grid, double least_fill) {
+int absorb_slivers(BrickGrid& grid, double min_fill) {
   const CellIndex index(grid);
   const std::size_t count = grid.cells.size();
   std::vector<Neighbours> neighbours(count);
@@ -203,7 +203,7 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
   std::vector<bool> gone(count, false);
   std::vector<double> fill = grid.fill;
   for (std::size_t i = 0; i < count; ++i) {
-    if (grid.fill[i] >= least_fill || receiver[i] < 0) continue;
+    if (grid.fill[i] >= min_fill || receiver[i] < 0) continue;
     const bool is_needed = std::any_of(neighbours[i].begin(), neighbours[i].end(), [&](int other) {
       return other >= 0 && grid.fill[other] < kStrongFill && receiver[other] < 0;
     });
@@ -238,7 +238,7 @@ class LooseBricks {
   }
 
   /// The heir of each removed brick; -1: it stays.
-  std::vector<int> give_up(double least_share) {
+  std::vector<int> give_up(double min_share) {
     std::vector<double> share;
     for (std::size_t brick = 0; brick < grid_.cells.size(); ++brick) {
       double fullest = 0;
@@ -249,7 +249,7 @@ class LooseBricks {
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] < share[b]; });
     for (const int brick : order) {
-      if (share[brick] >= least_share) break;
+      if (share[brick] >= min_share) break;
       // A brick that has absorbed others stays: their solid is far enough away.
       if (fill_[brick] > grid_.fill[brick] || !hang_together(brick)) continue;
       const std::vector<int> sides = sides_of(brick);
@@ -298,9 +298,9 @@ class LooseBricks {
 
 }  // namespace
 
-int absorb_loose_bricks(BrickGrid& grid, double least_share) {
+int absorb_loose_bricks(BrickGrid& grid, double min_share) {
   LooseBricks bricks(grid);
-  const std::vector<int> heir = bricks.give_up(least_share);
+  const std::vector<int> heir = bricks.give_up(min_share);
   std::vector<bool> gone;
   gone.reserve(heir.size());
   for (const int one : heir) gone.push_back(one >= 0);

@@ -8,8 +8,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kOwnAxis = 64;       // weight along a direction's lines, relative to across them
-constexpr double kLeastTrust = 1e-6;  // decides where no line crosses the surface
+constexpr double kOwnAxis = 64;     // weight along a direction's lines, relative to across them
+constexpr double kMinTrust = 1e-6;  // decides where no line crosses the surface
 
 }  // namespace
 
@@ -56,7 +56,7 @@ SolidIntegrals LineIntegrals::best(double volume) const {
     const Direction& direction = directions_[axis];
     if (direction.integrals.volume <= 0) continue;
     const SolidMoments moments = direction.integrals.moments();
-    const double trust = double(direction.ends) * direction.ends + kLeastTrust;
+    const double trust = double(direction.ends) * direction.ends + kMinTrust;
     Vec3 along = Vec3::Constant(trust);
     along[axis] *= kOwnAxis;
     const Mat3 both = (along * along.transpose()).cwiseSqrt();

@@ -160,8 +160,8 @@ namespace {
 constexpr int kSamples = 512;
 constexpr double kShortest = 1e-3;  // cells: shorter intervals inside are ignored
 constexpr double kSpotReach = 2.2;  // pitches: the range in which a spot is linked
-constexpr float kLeastPiece = 4;    // samples
-constexpr std::size_t kMostPieces = 100;
+constexpr float kMinPiece = 4;      // samples
+constexpr std::size_t kMaxPieces = 100;
 
 constexpr std::array<int, 3> kStride{1, kSamplesAlong, kSamplesAlong* kSamplesAlong};
 
@@ -217,13 +217,13 @@ void number_pieces(DisjointSets& sets, CutCell& cell) {
   std::vector<float> weights(sets.size(), 0);
   for (int item = 0; item < count; ++item) weights[sets.find(item)] += weight_of(cell, item);
   const float heaviest = *std::max_element(weights.begin(), weights.end());
-  const float least = std::min(heaviest, kLeastPiece);
+  const float least = std::min(heaviest, kMinPiece);
   std::vector<std::uint8_t> number(sets.size(), 0);
   cell.piece.assign(sets.size(), 0);
   for (int item = 0; item < count; ++item) {
     if (!is_solid(cell, item)) continue;
     const std::size_t set = sets.find(item);
-    if (number[set] == 0 && weights[set] >= least && cell.weights.size() < kMostPieces) {
+    if (number[set] == 0 && weights[set] >= least && cell.weights.size() < kMaxPieces) {
       cell.weights.push_back(weights[set]);
       number[set] = static_cast<std::uint8_t>(cell.weights.size());
     }
@@ -264,7 +264,7 @@ int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
                    cell.x()];
 }
 
-Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
+Vec3 SolidSamples::position_of(const CutCell& cell, int sample) const {
   if (sample >= kSamples) return cell.spots[sample - kSamples].position;
   const Vec3 local(along(sample, 0) + 0.5, along(sample, 1) + 0.5, along(sample, 2) + 0.5);
   return grid_.cells[cell.brick].cast<double>() + local * kSamplePitch;
@@ -406,10 +406,10 @@ void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) cons
   const Vec3 corner = grid_.cells[cell.brick].cast<double>();
   for (int sample = 0; sample < kSamples; ++sample) {
     if (!is_inside(cell, sample)) continue;
-    const Vec3 position = place_of(cell, sample);
+    const Vec3 position = position_of(cell, sample);
     for_each_near(position - corner, 1.01, [&](int other) {
       if (other <= sample || !is_inside(cell, other) || sets.find(other) == sets.find(sample)) return;
-      if (sees(position, place_of(cell, other))) sets.merge(sample, other);
+      if (sees(position, position_of(cell, other))) sets.merge(sample, other);
     });
   }
 }
@@ -420,7 +420,7 @@ void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
     const int item = kSamples + int(i);
     const Vec3& position = cell.spots[i].position;
     const auto join = [&](int other) {
-      if (sets.find(other) != sets.find(item) && sees(position, place_of(cell, other))) sets.merge(item, other);
+      if (sets.find(other) != sets.find(item) && sees(position, position_of(cell, other))) sets.merge(item, other);
     };
     for_each_near(position - corner, 1.5, [&](int other) {
       if (is_inside(cell, other)) join(other);

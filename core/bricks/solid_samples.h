@@ -89,7 +89,7 @@ class SolidSamples {
   /// The brick at a cell, or -1.
   [[nodiscard]] int brick_at(const Eigen::Vector3i& cell) const;
   /// In cells.
-  [[nodiscard]] Vec3 place_of(const CutCell& cell, int sample) const;
+  [[nodiscard]] Vec3 position_of(const CutCell& cell, int sample) const;
   /// Whether a straight line meets no triangle.
   [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const { return !triangles_.is_blocked(from, to); }
 

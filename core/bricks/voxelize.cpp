@@ -222,11 +222,11 @@ Eigen::Vector3i count_cells(const Vec3& extent, double brick_size) {
     const double length = extent[axis] / brick_size;
     const double count = std::max(1.0, std::ceil(without_rounding(length, std::max(1.0, length))));
     product *= count;
-    if (!(count <= kMostCellsPerAxis) || product > std::numeric_limits<std::int32_t>::max()) {
+    if (!(count <= kMaxCellsPerAxis) || product > std::numeric_limits<std::int32_t>::max()) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("bricks of {:.6g} are too small for a body of {:.6g} x {:.6g} x {:.6g}: the box would be "
                               "more than {} bricks long or hold more than 2^31; use larger bricks",
-                              brick_size, extent.x(), extent.y(), extent.z(), kMostCellsPerAxis));
+                              brick_size, extent.x(), extent.y(), extent.z(), kMaxCellsPerAxis));
     }
     counts[axis] = int(count);
   }

@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostCells = 2e6;  // along an axis, so that a cell's number fits
+constexpr double kMaxCells = 2e6;  // along an axis, so that a cell's number fits
 
 struct Entry {
   std::int64_t cell;
@@ -32,7 +32,7 @@ class Cells {
     }
     if (all.isEmpty()) return;
     low_ = all.min();
-    side_ = std::max({largest.maxCoeff(), all.sizes().maxCoeff() / kMostCells, 1e-300});
+    side_ = std::max({largest.maxCoeff(), all.sizes().maxCoeff() / kMaxCells, 1e-300});
     const Eigen::Array3d counts = (all.sizes() / side_).array().floor() + 3;
     row_ = static_cast<std::int64_t>(counts.x());
     layer_ = row_ * static_cast<std::int64_t>(counts.y());

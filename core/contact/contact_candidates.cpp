@@ -32,7 +32,7 @@ ContactCandidates::ContactCandidates(const std::vector<const ContactSurface*>& s
   if (other != body) add(other);
 }
 
-bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
+bool ContactCandidates::may_touch(const BrickBounds& a, const BrickBounds& b) const {
   const bool is_self = sides_.size() == 1;
   if (!is_self && a.side == b.side) return false;
   if (a.turn + b.turn > 0 && a.normal.dot(b.normal) > a.cosine * b.cosine - a.sine * b.sine) return false;
@@ -41,45 +41,45 @@ bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
   return !std::binary_search(neighbours.begin(), neighbours.end(), b.row);
 }
 
-void ContactCandidates::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
+void ContactCandidates::add_bricks(const Group& group, std::size_t side, const AlignedBox& near) {
   const Body& body = *group[sides_[side].body];
   const ContactSurface& skin = skin_of(sides_[side]);
   const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
   for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
     if (!near_bricks.intersects(box_of(body, skin.bricks[row]))) continue;
-    Place place{.side = side, .row = row, .box = {}, .normal = {}, .turn = 0, .cosine = 0, .sine = 0};
-    find(group, place);
-    if (!near.intersects(place.box)) continue;
-    place.normal = carried_normal(body, skin.bricks[row], skin.cones[row].axis);
-    place.turn = (std::acos(kFacing) - kBent) / 2 - skin.cones[row].spread;
-    place.cosine = std::cos(place.turn);
-    place.sine = std::sin(place.turn);
-    places_.push_back(place);
+    BrickBounds bounds{.side = side, .row = row, .box = {}, .normal = {}, .turn = 0, .cosine = 0, .sine = 0};
+    find(group, bounds);
+    if (!near.intersects(bounds.box)) continue;
+    bounds.normal = carried_normal(body, skin.bricks[row], skin.cones[row].axis);
+    bounds.turn = (std::acos(kFacing) - kBent) / 2 - skin.cones[row].spread;
+    bounds.cosine = std::cos(bounds.turn);
+    bounds.sine = std::sin(bounds.turn);
+    bounds_.push_back(bounds);
   }
 }
 
 void ContactCandidates::seek(const Group& group, double margin) {
   ++finds_;
-  places_.clear();
+  bounds_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
     const Body& facing = *group[sides_[sides_.size() - 1 - side].body];
-    add_places(group, side, widened(bounding_box(facing.positions), margin + facing.grid.brick_size));
+    add_bricks(group, side, widened(bounding_box(facing.positions), margin + facing.grid.brick_size));
   }
   std::vector<AlignedBox> boxes;
-  boxes.reserve(places_.size());
-  for (const Place& place : places_) boxes.push_back(widened(place.box, margin / 2));
-  near_ = overlapping_boxes(boxes, [&](int a, int b) { return may_touch(places_[a], places_[b]); });
-  keep_near_places();
+  boxes.reserve(bounds_.size());
+  for (const BrickBounds& bounds : bounds_) boxes.push_back(widened(bounds.box, margin / 2));
+  near_ = overlapping_boxes(boxes, [&](int a, int b) { return may_touch(bounds_[a], bounds_[b]); });
+  keep_near_bricks();
 }
 
-void ContactCandidates::keep_near_places() {
-  std::vector<int> row_of(places_.size(), -1);
-  std::vector<Place> kept;
+void ContactCandidates::keep_near_bricks() {
+  std::vector<int> row_of(bounds_.size(), -1);
+  std::vector<BrickBounds> kept;
   const auto keep = [&](int& index) {
     int& row = row_of[index];
     if (row < 0) {
       row = isize(kept);
-      kept.push_back(places_[index]);
+      kept.push_back(bounds_[index]);
     }
     index = row;
   };
@@ -87,24 +87,24 @@ void ContactCandidates::keep_near_places() {
     keep(first);
     keep(second);
   }
-  places_ = std::move(kept);
+  bounds_ = std::move(kept);
 }
 
-void ContactCandidates::find(const Group& group, Place& place) {
-  const ContactSurface& skin = skin_of(place);
-  Side& side = sides_[place.side];
+void ContactCandidates::find(const Group& group, BrickBounds& bounds) {
+  const ContactSurface& skin = skin_of(bounds);
+  Side& side = sides_[bounds.side];
   const Body& body = *group[side.body];
-  place.box.setEmpty();
+  bounds.box.setEmpty();
   const auto add = [&](int point) {
     long& found = side.finds[point];
     if (found != finds_) {
       side.positions.row(point) = carried(body, skin.points[point], body.positions).transpose();
     }
     found = finds_;
-    place.box.extend(Vec3(side.positions.row(point)));
+    bounds.box.extend(Vec3(side.positions.row(point)));
   };
-  for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
-  for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
+  for (int i = skin.first_point[bounds.row]; i < skin.first_point[bounds.row + 1]; ++i) add(i);
+  for (int i = skin.first_triangle[bounds.row]; i < skin.first_triangle[bounds.row + 1]; ++i) {
     for (const int corner : skin.triangles[i]) add(corner);
   }
 }
@@ -141,20 +141,20 @@ double ContactCandidates::fastest(const Group& group) const {
 double ContactCandidates::fastest_near(const Group& group) const {
   const RigidMotion rigid = rigid_motion(group);
   double most = 0;
-  for (const Place& place : places_) most = std::max(most, fastest_of(group, place.side, place.row, rigid));
+  for (const BrickBounds& bounds : bounds_) most = std::max(most, fastest_of(group, bounds.side, bounds.row, rigid));
   return most;
 }
 
 double ContactCandidates::closing_speed(const Group& group, double dt) const {
-  const auto velocity_of = [&](const Place& place) {
-    const Body& body = *group[sides_[place.side].body];
-    const int brick = skin_of(place).bricks[place.row];
+  const auto velocity_of = [&](const BrickBounds& bounds) {
+    const Body& body = *group[sides_[bounds.side].body];
+    const int brick = skin_of(bounds).bricks[bounds.row];
     return carried(body, brick, CornerWeights::Constant(0.125), body.velocities);
   };
   double fastest = 0;
   for (const auto& [first, second] : near_) {
-    const Place& a = places_[first];
-    const Place& b = places_[second];
+    const BrickBounds& a = bounds_[first];
+    const BrickBounds& b = bounds_[second];
     const double brick = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
     const Vec3 way = b.box.center() - a.box.center();
     if (a.normal.dot(way) < -brick / 2 && b.normal.dot(way) > brick / 2) continue;  // back to back
@@ -178,8 +178,8 @@ int ContactCandidates::tracked_row(const Group& group, std::size_t side, int poi
   return row;
 }
 
-void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, const Place& facing, std::size_t side,
-                                int point) {
+void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, const BrickBounds& facing,
+                                std::size_t side, int point) {
   const ContactSurface& across = skin_of(facing);
   const Points& corners = sides_[facing.side].positions;
   const Vec3 position = sides_[side].positions.row(point);
@@ -205,13 +205,13 @@ void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, c
   }
 }
 
-void ContactCandidates::pair_up(const Group& group, const Place& place, const Place& facing,
+void ContactCandidates::pair_up(const Group& group, const BrickBounds& bounds, const BrickBounds& facing,
                                 const ContactRange& reach) {
-  const ContactSurface& skin = skin_of(place);
+  const ContactSurface& skin = skin_of(bounds);
   const AlignedBox around = widened(facing.box, reach.margin);
-  for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
-    if (!around.contains(Vec3(sides_[place.side].positions.row(point)))) continue;
-    pair_up(group, reach, facing, place.side, point);
+  for (int point = skin.first_point[bounds.row]; point < skin.first_point[bounds.row + 1]; ++point) {
+    if (!around.contains(Vec3(sides_[bounds.side].positions.row(point)))) continue;
+    pair_up(group, reach, facing, bounds.side, point);
   }
 }
 
@@ -221,10 +221,10 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
   nearest_beyond_ = std::numeric_limits<double>::infinity();
   for (Side& side : sides_) std::fill(side.tracked.begin(), side.tracked.end(), -1);
   ++finds_;
-  for (Place& place : places_) find(group, place);
+  for (BrickBounds& bounds : bounds_) find(group, bounds);
   for (const auto& [brick, other] : near_) {
-    const Place& a = places_[brick];
-    const Place& b = places_[other];
+    const BrickBounds& a = bounds_[brick];
+    const BrickBounds& b = bounds_[other];
     const double distance = a.box.exteriorDistance(b.box);
     nearest_beyond_ = std::min(nearest_beyond_, std::max(distance, reach.margin));
     if (distance > reach.margin) continue;

@@ -77,7 +77,7 @@ class ContactCandidates {
     std::vector<int> tracked;  // by point: row in tracked_, or -1
   };
   /// A brick of a skin.
-  struct Place {
+  struct BrickBounds {
     std::size_t side;
     std::size_t row;  // in the skin's bricks
     AlignedBox box;   // m, of its points and triangles
@@ -88,23 +88,23 @@ class ContactCandidates {
   };
 
   [[nodiscard]] const ContactSurface& skin_of(const Side& side) const { return *skins_[side.body]; }
-  [[nodiscard]] const ContactSurface& skin_of(const Place& place) const { return skin_of(sides_[place.side]); }
+  [[nodiscard]] const ContactSurface& skin_of(const BrickBounds& bounds) const { return skin_of(sides_[bounds.side]); }
   [[nodiscard]] RigidMotion rigid_motion(const Group& group) const;
   [[nodiscard]] double fastest_of(const Group& group, std::size_t side, std::size_t row,
                                   const RigidMotion& rigid) const;
   /// Adds the bricks of a side that are near the box, with their positions.
-  void add_places(const Group& group, std::size_t side, const AlignedBox& near);
-  void keep_near_places();
-  void find(const Group& group, Place& place);
-  [[nodiscard]] bool may_touch(const Place& a, const Place& b) const;
-  void pair_up(const Group& group, const Place& place, const Place& facing, const ContactRange& reach);
-  void pair_up(const Group& group, const ContactRange& reach, const Place& facing, std::size_t side, int point);
+  void add_bricks(const Group& group, std::size_t side, const AlignedBox& near);
+  void keep_near_bricks();
+  void find(const Group& group, BrickBounds& bounds);
+  [[nodiscard]] bool may_touch(const BrickBounds& a, const BrickBounds& b) const;
+  void pair_up(const Group& group, const BrickBounds& bounds, const BrickBounds& facing, const ContactRange& reach);
+  void pair_up(const Group& group, const ContactRange& reach, const BrickBounds& facing, std::size_t side, int point);
   int tracked_row(const Group& group, std::size_t side, int point);
 
   const std::vector<const ContactSurface*>& skins_;  // by body of the group
   std::vector<Side> sides_;                          // two, or one
-  std::vector<Place> places_;                        // of bricks that are near others
-  std::vector<std::pair<int, int>> near_;            // rows of places_
+  std::vector<BrickBounds> bounds_;                  // of bricks that are near others
+  std::vector<std::pair<int, int>> near_;            // rows of bounds_
   double nearest_beyond_ = 0;
   bool may_look_away_ = false;
   long finds_ = 0;

@@ -10,10 +10,10 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostSweeps = 30;
-constexpr int kMostSweepsWithInversions = 100;  // rare, and their errors grow
-constexpr double kTolerance = 1e-4;             // bricks that a point may miss its constraint by in a step
-constexpr double kLeastFree = 0.05;             // of a contact's weights: what pinned nodes carry cannot be moved
+constexpr int kMaxSweeps = 30;
+constexpr int kMaxSweepsWithInversions = 100;  // rare, and their errors grow
+constexpr double kTolerance = 1e-4;            // bricks that a point may miss its constraint by in a step
+constexpr double kMinFree = 0.05;              // of a contact's weights: what pinned nodes carry cannot be moved
 
 double dot(double a, double b) { return a * b; }
 double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
@@ -53,7 +53,7 @@ Vec3 ContactSolver::ContactConstraint::allowed(const Vec3& size) const {
 }
 
 double ContactSolver::InversionConstraint::residual(const Nodes& all, Vec3 SolverNode::*velocity) const {
-  double result = least_speed;
+  double result = min_speed;
   for (std::size_t i = 0; i < node_count; ++i) result -= gradients[i].dot(all[nodes[i]].*velocity);
   return result;
 }
@@ -94,7 +94,7 @@ bool ContactSolver::can_be_moved(std::span<const JacobianEntry> entries) const {
     all += std::abs(entry.weight);
     if (nodes_[entry.index].inverse_mass > 0) movable += std::abs(entry.weight);
   }
-  return movable > kLeastFree * all;
+  return movable > kMinFree * all;
 }
 
 void ContactSolver::find_contacts(const World& world, double elapsed, double dt) {
@@ -139,7 +139,7 @@ void ContactSolver::add_inversions(std::size_t row, const std::vector<InversionR
     const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(rate);
     InversionConstraint constraint{
         .key = contact_key(0, row, rate.brick, 0) * 2 + static_cast<std::uint64_t>(rate.corner),
-        .least_speed = rate.least_rate * size};
+        .min_speed = rate.min_rate * size};
     for (int corner = 0; corner < 8; ++corner) {
       if (gradients.col(corner).isZero(0)) continue;
       constraint.gradients[constraint.node_count] = gradients.col(corner);
@@ -231,7 +231,7 @@ void ContactSolver::apply(const World& world, double elapsed, double dt) {
   if (nodes_.empty()) return;
   compute_row_sums();
   warm_start();
-  const int most = inversions_.empty() ? kMostSweeps : kMostSweepsWithInversions;
+  const int most = inversions_.empty() ? kMaxSweeps : kMaxSweepsWithInversions;
   const double tolerance = kTolerance * smallest_brick_ / dt;
   double momentum = 1;  // Nesterov's sequence
   for (int i = 0; i < most; ++i) {

@@ -79,7 +79,7 @@ class ContactSolver {
     std::uint64_t key;                   // of the node it acts on, increasing
     std::array<std::size_t, 8> nodes{};  // rows of nodes_
     std::array<Vec3, 8> gradients{};
-    double least_speed;
+    double min_speed;
     std::size_t node_count = 0;
     double inverse_mass = 0;
     Iterate<double> impulse{0, 0};

@@ -13,17 +13,17 @@ namespace {
 constexpr double kApproach = 0.5;         // of the way to the contact distance, by which features may approach per step
 constexpr double kRecovery = 0.05;        // of the excess approach, that they separate per step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
-constexpr double kLeastFree = 0.05;       // of a contact's weights: the share of pinned nodes cannot be moved
+constexpr double kMinFree = 0.05;         // of a contact's weights: the share of pinned nodes cannot be moved
 constexpr double kYield = 0.2;            // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 
 /// The least speed (m/s) along the normal of two features whose contact keeps them `reach` (m) apart, if they move at
 /// `speed` (m/s).
-double least_speed(const AwakePair& pair, double reach, double speed, double gravity, double dt) {
+double min_speed(const AwakePair& pair, double reach, double speed, double gravity, double dt) {
   const double rest = pair.gap - reach;
   if (pair.restitution > 0 && speed < 0) return rest + speed * dt > 0 ? speed : -pair.restitution * speed;
   if (rest > 0) return -kApproach * rest / dt;
-  return std::min(-kRecovery * rest / dt, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kLeastGravity) * rest));
+  return std::min(-kRecovery * rest / dt, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kMinGravity) * rest));
 }
 
 }  // namespace
@@ -53,8 +53,8 @@ void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_m
           rate += gradients.col(corner).dot(body.velocities.row(nodes[corner]));
           response += gradients.col(corner).squaredNorm() * inverse_masses[row][nodes[corner]];
         }
-        if (!(rate < one.least_rate) || !(response > 0)) continue;
-        const double size = (one.least_rate - rate) / response;
+        if (!(rate < one.min_rate) || !(response > 0)) continue;
+        const double size = (one.min_rate - rate) / response;
         for (int corner = 0; corner < 8; ++corner) {
           const double share = size * inverse_masses[row][nodes[corner]];
           body.velocities.row(nodes[corner]) += share * gradients.col(corner).transpose();
@@ -89,7 +89,7 @@ void ContactSweep::finish_row(Row row) {
     free += std::abs(parts_[i].weight);
     row.inverse_mass += parts_[i].weight * parts_[i].weight * parts_[i].inverse_mass;
   }
-  if (free > kLeastFree && row.inverse_mass > 0) {
+  if (free > kMinFree && row.inverse_mass > 0) {
     rows_.push_back(row);
   } else {
     row.impulse->setZero();
@@ -112,14 +112,14 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
         speed += pair.weights[corner] * pair.normal.dot(near.known_velocity(pair, corner));
       }
     }
-    const double least = least_speed(pair, reach, speed, gravity, dt);
+    const double least = min_speed(pair, reach, speed, gravity, dt);
     const bool is_held = is_supported_at_node(near, pair, !are_loaded);
     if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kBorne * reach))) continue;
     Row row{.first = parts_.size(),
             .last = 0,
             .normal = pair.normal,
             .carried = Vec3::Zero(),
-            .least_speed = least,
+            .min_speed = least,
             .friction = pair.friction,
             .inverse_mass = 0,
             .impulse = pair.impulse};
@@ -159,7 +159,7 @@ void ContactSweep::add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_mas
             .last = 0,
             .normal = Vec3::Zero(),
             .carried = Vec3::Zero(),
-            .least_speed = 0,
+            .min_speed = 0,
             .friction = 0,
             .inverse_mass = 0,
             .impulse = &glue_impulses_[i],
@@ -201,7 +201,7 @@ void ContactSweep::warm_start(double scale) {
     *row.impulse *= scale;
     if (!row.is_glue) *row.impulse = within_friction_cone(*row.impulse, row.normal, row.friction);
     const Vec3 velocity = velocity_of(row);
-    wanted += row.impulse->dot(row.least_speed * row.normal - velocity);
+    wanted += row.impulse->dot(row.min_speed * row.normal - velocity);
     response -= row.impulse->dot(velocity);
   }
   for (const Row& row : rows_) {
@@ -223,7 +223,7 @@ void ContactSweep::sweep() {
   for (const Row& row : rows_) {
     const double yield = row.is_glue ? kYield : 0;
     const Vec3 wanted =
-        (*row.impulse + (row.least_speed * row.normal - velocity_of(row)) / row.inverse_mass) / (1 + yield);
+        (*row.impulse + (row.min_speed * row.normal - velocity_of(row)) / row.inverse_mass) / (1 + yield);
     const Vec3 now = row.is_glue ? wanted : within_friction_cone(wanted, row.normal, row.friction);
     push(row, now - *row.impulse);
     *row.impulse = now;

@@ -33,7 +33,7 @@ class ContactSweep {
     std::size_t last;     // one past them
     Vec3 normal;          // unit
     Vec3 carried;         // m/s, in that relative velocity, of what no impulse can move
-    double least_speed;   // m/s, along the normal
+    double min_speed;     // m/s, along the normal
     double friction;      // Coulomb's coefficient
     double inverse_mass;  // 1/kg, at the contact point
     Vec3* impulse;        // N s

@@ -9,7 +9,7 @@ namespace sprung {
 namespace {
 
 constexpr double kRecoverySteps = 20;
-constexpr double kMostSteps = 24;  // compressed bodies can be fast within a few steps
+constexpr double kMaxSteps = 24;  // compressed bodies can be fast within a few steps
 
 }  // namespace
 
@@ -63,14 +63,14 @@ Vec3 within_friction_cone(const Vec3& impulse, const Vec3& normal, double fricti
   return length > most ? Vec3(normal_force * normal + most / length * sideways) : impulse;
 }
 
-double least_speed(double gap, double gravity, double dt) {
+double min_speed(double gap, double gravity, double dt) {
   if (gap >= 0) return -gap / dt;
-  return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));
+  return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kMinGravity) * gap));
 }
 
 int steps_until_update(double margin, double speed, double gravity, double dt) {
   const double steps = std::min(margin / (4 * speed * dt), std::sqrt(margin / gravity) / dt);
-  return steps >= 1 ? int(std::min(steps, kMostSteps)) : 1;
+  return steps >= 1 ? int(std::min(steps, kMaxSteps)) : 1;
 }
 
 }  // namespace sprung

@@ -54,12 +54,12 @@ void add_shares(const Group& group, std::size_t body, int brick, const CornerWei
 [[nodiscard]] Vec3 within_friction_cone(const Vec3& impulse, const Vec3& normal, double friction);
 
 /// m/s^2: penetrations are resolved without gravity as well.
-inline constexpr double kLeastGravity = 0.1;
+inline constexpr double kMinGravity = 0.1;
 
 /// The least speed of a point along the normal, relative to the other surface, m/s: in a step it may approach until it
 /// touches. A point inside (gap < 0, m) is moved out within about twenty steps, but no faster than a throw that would
 /// just reach the surface: what starts a little too deep is lifted, not ejected. `gravity` in m/s^2, its magnitude.
-[[nodiscard]] double least_speed(double gap, double gravity, double dt);
+[[nodiscard]] double min_speed(double gap, double gravity, double dt);
 
 /// The number of steps for which the candidates within `margin` (m) of a surface remain complete: nothing approaches by
 /// half of it at this speed (m/s), relative to any rigid motion, with as much again to spare; nor does it fall further

@@ -107,12 +107,12 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
     for (int corner = 0; corner <= InversionRate::kMeanAxes; ++corner) {
       const Mat3 edges = edges_at(corner, x);
       const Mat3 areas = areas_of(edges) / volume;
-      const double deficit = kLeastVolume - edges.col(0).dot(areas.col(0));
+      const double deficit = kMinVolume - edges.col(0).dot(areas.col(0));
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
       const double recovery = std::min(deficit / kUnfoldSteps, fastest * areas.norm());
-      const double least_rate = (deficit > 0 ? recovery : deficit) / dt;
-      if (!(rate < least_rate)) continue;  // nor if a number is not finite
-      found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});
+      const double min_rate = (deficit > 0 ? recovery : deficit) / dt;
+      if (!(rate < min_rate)) continue;  // nor if a number is not finite
+      found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .min_rate = min_rate});
     }
   }
   return found_;

@@ -10,7 +10,7 @@ namespace sprung {
 /// stiffness; this does not. Corners are checked because springs cannot tell orientation there either: a brick that is
 /// merely folded, with its mean axes in order, is in a state that the springs' corrections can drive on without end.
 /// And a brick can be inverted between corners that are all in order.
-inline constexpr double kLeastVolume = 0.1;
+inline constexpr double kMinVolume = 0.1;
 
 /// The largest impact speed in a world, m/s: initial speeds plus the fall from the current position to the lowest
 /// object. 0 if there is nothing to hit. Later movements of obstacles are not considered.
@@ -32,9 +32,9 @@ void stiffen_volume_guard(Body& body, double gravity, double speed);
 /// A brick that would be compressed too far in the coming step.
 struct InversionRate {
   int brick;
-  int corner;         // where; kMeanAxes: between its mean axes
-  Mat3 gradient;      // of the volume ratio there by the three edges or axes (columns, low to high end), 1/m
-  double least_rate;  // of the volume ratio that is allowed, 1/s
+  int corner;       // where; kMeanAxes: between its mean axes
+  Mat3 gradient;    // of the volume ratio there by the three edges or axes (columns, low to high end), 1/m
+  double min_rate;  // of the volume ratio that is allowed, 1/s
 
   static constexpr int kMeanAxes = 8;
 };

@@ -36,25 +36,25 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   const auto in_frame = [&](const Vec3& position) -> Vec3 {
     return pose.rotation.transpose() * (position - pose.translation);
   };
-  Asked& asked = middles_[near.obstacle][near.body][at];
+  GapQuery& query = middles_[near.obstacle][near.body][at];
   const Vec3 here = in_frame(middle);
-  if (asked.least(here) > far) return;
-  asked = {here, signed_distance(shape, {}, here)};
-  if (asked.gap.distance > far) return;
+  if (query.lower_bound(here) > far) return;
+  query = {here, signed_distance(shape, {}, here)};
+  if (query.gap.distance > far) return;
   // Which points are nearest, and about how near, is estimated as if the surface were flat across a brick.
   std::vector<NearPoint> nearest;
   for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
     const ContactPoint& point = skin.points[i];
     const Vec3 position = in_frame(x * point.weights);
-    const double gap = asked.gap.distance + asked.gap.normal.dot(position - here) - kCurved * body.grid.brick_size;
-    nearest.push_back({&point, {position, {gap, asked.gap.normal}}});
+    const double gap = query.gap.distance + query.gap.normal.dot(position - here) - kCurved * body.grid.brick_size;
+    nearest.push_back({&point, {position, {gap, query.gap.normal}}});
   }
   std::stable_sort(nearest.begin(), nearest.end(),
-                   [](const NearPoint& a, const NearPoint& b) { return a.asked.gap.distance < b.asked.gap.distance; });
+                   [](const NearPoint& a, const NearPoint& b) { return a.query.gap.distance < b.query.gap.distance; });
   near.first = points_.size();
   std::array<int, 8> kept{};
   for (const NearPoint& one : nearest) {
-    if (one.asked.gap.distance > margin) break;
+    if (one.query.gap.distance > margin) break;
     if (kept[one.point->corner]++ < kPointsACorner) points_.push_back(one);
   }
   near.last = points_.size();
@@ -62,13 +62,13 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
 }
 
 Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& position, NearPoint& near) {
-  const Vec3 moved = position - near.asked.position;
+  const Vec3 moved = position - near.query.position;
   if (near.is_exact && moved.norm() <= kFlat * brick_size) {
-    return {near.asked.gap.distance + near.asked.gap.normal.dot(moved), near.asked.gap.normal};
+    return {near.query.gap.distance + near.query.gap.normal.dot(moved), near.query.gap.normal};
   }
-  near.asked = {position, signed_distance(shape, {}, position)};
+  near.query = {position, signed_distance(shape, {}, position)};
   near.is_exact = true;
-  return near.asked.gap;
+  return near.query.gap;
 }
 
 void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
@@ -93,19 +93,20 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
   steps_to_update_ = steps;
 }
 
-bool ObstacleContact::is_active(const BrickMotion& motion, const Hold& hold, NearPoint& near, ActiveContact& active) {
+bool ObstacleContact::is_active(const BrickMotion& motion, const ObstacleState& state, NearPoint& near,
+                                ActiveContact& active) {
   const ContactPoint& point = *near.point;
   const Vec3 position = motion.x * point.weights;
-  const Vec3 carried = velocity_at(hold.obstacle, hold.pose, position);
+  const Vec3 carried = velocity_at(state.obstacle, state.pose, position);
   const Vec3 velocity = motion.v * point.weights - carried;
-  const Vec3 there = hold.pose.rotation.transpose() * (position - hold.pose.translation);
-  if (near.asked.least(there) > hold.dt * velocity.norm()) return false;
-  Gap gap = gap_now(hold.obstacle.shape, motion.brick_size, there, near);
-  gap.normal = hold.pose.rotation * gap.normal;
+  const Vec3 there = state.pose.rotation.transpose() * (position - state.pose.translation);
+  if (near.query.lower_bound(there) > state.dt * velocity.norm()) return false;
+  Gap gap = gap_now(state.obstacle.shape, motion.brick_size, there, near);
+  gap.normal = state.pose.rotation * gap.normal;
   const double speed = gap.normal.dot(velocity);
-  if (!(gap.distance + hold.dt * speed <= 0)) return false;  // nor if a number is not finite
-  double least = least_speed(gap.distance, hold.gravity, hold.dt);
-  if (gap.distance <= 0 && hold.obstacle.restitution > 0) least = std::max(least, -hold.obstacle.restitution * speed);
+  if (!(gap.distance + state.dt * speed <= 0)) return false;  // nor if a number is not finite
+  double least = min_speed(gap.distance, state.gravity, state.dt);
+  if (gap.distance <= 0 && state.obstacle.restitution > 0) least = std::max(least, -state.obstacle.restitution * speed);
   active = {.point = &point,
             .urgency = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]),
             .gap = gap.distance,
@@ -119,7 +120,7 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
   const Body& body = *group[near.body];
   const auto& nodes = body.grid.nodes[near.brick];
   const Obstacle& obstacle = world.obstacles[near.obstacle];
-  const Hold hold{obstacle, poses[near.obstacle], world.gravity.norm(), dt};
+  const ObstacleState state{obstacle, poses[near.obstacle], world.gravity.norm(), dt};
   const BrickMotion motion{columns_of(nodes, body.positions), columns_of(nodes, body.velocities), body.grid.brick_size};
   const auto add = [&](const ActiveContact& active, std::uint64_t rank) {
     const std::size_t first = contacts.shares.size();
@@ -132,12 +133,12 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
          .last = contacts.shares.size(),
          .normal = active.normal,
          .goal = active.goal,
-         .friction = hold.obstacle.friction});
+         .friction = state.obstacle.friction});
   };
   std::array<ActiveContact, 8> deepest{};
   for (std::size_t i = near.first; i < near.last; ++i) {
     ActiveContact active;
-    if (!is_active(motion, hold, points_[i], active)) continue;
+    if (!is_active(motion, state, points_[i], active)) continue;
     ActiveContact& found = deepest[active.point->corner];
     if (found.point == nullptr || active.urgency > found.urgency) std::swap(found, active);
     if (active.point != nullptr && active.gap < -kLeftIn * motion.brick_size) add(active, 1);

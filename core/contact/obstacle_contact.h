@@ -20,17 +20,17 @@ class ObstacleContact {
 
  private:
   /// The last gap query of a point, in the obstacle's frame.
-  struct Asked {
+  struct GapQuery {
     Vec3 position = Vec3::Zero();  // m
     Gap gap{-1, Vec3::Zero()};
     /// A lower bound of the current gap: it cannot shrink by more than the point has moved.
-    [[nodiscard]] double least(const Vec3& now) const { return gap.distance - (now - position).norm(); }
+    [[nodiscard]] double lower_bound(const Vec3& now) const { return gap.distance - (now - position).norm(); }
   };
   /// A point near an obstacle. After a query of its own, the surface is taken to be flat while the point moves by no
   /// more than a small part of a brick.
   struct NearPoint {
     const ContactPoint* point;
-    Asked asked;
+    GapQuery query;
     bool is_exact = false;
   };
   [[nodiscard]] static Gap gap_now(const Shape& shape, double brick_size, const Vec3& position, NearPoint& near);
@@ -49,7 +49,7 @@ class ObstacleContact {
     double brick_size;  // m
   };
   /// The obstacle in contact.
-  struct Hold {
+  struct ObstacleState {
     const Obstacle& obstacle;
     const Pose& pose;
     double gravity;  // m/s^2
@@ -63,7 +63,7 @@ class ObstacleContact {
     Vec3 normal;
     Vec3 goal;  // m/s
   };
-  [[nodiscard]] static bool is_active(const BrickMotion& motion, const Hold& hold, NearPoint& near,
+  [[nodiscard]] static bool is_active(const BrickMotion& motion, const ObstacleState& state, NearPoint& near,
                                       ActiveContact& active);
   void look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group);
   void look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near);
@@ -73,7 +73,7 @@ class ObstacleContact {
   const std::vector<const ContactSurface*>& skins_;  // by body of the group
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
-  std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, body and index in the skin's bricks
+  std::vector<std::vector<std::vector<GapQuery>>> middles_;  // by obstacle, body and index in the skin's bricks
   int steps_to_update_ = 0;
 };
 

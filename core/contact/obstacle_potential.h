@@ -82,7 +82,7 @@ class ObstaclePotential {
     Vec3 normal = Vec3::Zero();  // likewise
   };
   /// The last distance query of a brick's middle, in the obstacle's frame.
-  struct Asked {
+  struct GapQuery {
     Vec3 position = Vec3::Zero();
     double distance = 0;  // m; 0: no query yet
   };
@@ -96,10 +96,10 @@ class ObstaclePotential {
   const Obstacle& obstacle_;
   const ContactSurface& skin_;
   double slip_speed_;
-  double slip_ = 0;            // m
-  Pose pose_;                  // at the end of the step
-  std::vector<Point> points_;  // of the skin
-  std::vector<Asked> asked_;   // of the skin's bricks
+  double slip_ = 0;              // m
+  Pose pose_;                    // at the end of the step
+  std::vector<Point> points_;    // of the skin
+  std::vector<GapQuery> query_;  // of the skin's bricks
 };
 
 }  // namespace sprung

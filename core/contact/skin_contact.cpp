@@ -52,7 +52,7 @@ void SkinContact::add(const Group& group, const ActiveContact& active, ContactLi
                            .first = first,
                            .last = contacts.shares.size(),
                            .normal = stance.normal,
-                           .goal = active.least_speed * stance.normal,
+                           .goal = active.min_speed * stance.normal,
                            .friction = std::sqrt(group[point.body]->contact.friction * other_friction)});
 }
 
@@ -83,8 +83,8 @@ bool SkinContact::is_active(const World& world, double dt, const Group& group, A
   if (!(stance.gap + dt * speed <= 0)) return false;
   const double room = stance.gap >= 0 ? 1 : volume_ratio_of(group, *stance.pair);
   if (room < kSkinFlat && bodies_[0] == bodies_[1]) return false;
-  active.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
-  active.urgency = active.least_speed - speed;
+  active.min_speed = room > kPressed ? min_speed(stance.gap, world.gravity.norm(), dt) : 0;
+  active.urgency = active.min_speed - speed;
   const ContactPoint& at = skins_[point.body]->points[point.point];
   active.key = contact_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.body, at.brick, at.corner);
   return true;
@@ -169,7 +169,7 @@ void SkinContact::find(const World& world, double dt, const Group& group, Contac
 namespace {
 
 constexpr double kLookAhead = 0.1;  // bricks that bodies may move until contacts are searched for again
-constexpr int kMostStepsAhead = 8;  // until then
+constexpr int kMaxStepsAhead = 8;   // until then
 constexpr double kFaster = 1.5;     // times, that speeds may grow until then
 constexpr double kBodyMargin = 2;   // bricks: bodies nearer than that are tracked
 
@@ -229,8 +229,8 @@ void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravit
   double fastest = 0;
   for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
   const double way = kLookAhead * smallest_brick(group_);
-  const bool is_slow = 2 * fastest * dt * kMostStepsAhead <= way;
-  steps_to_look_ = is_slow ? kMostStepsAhead : std::max(1, int(way / (2 * fastest * dt)));
+  const bool is_slow = 2 * fastest * dt * kMaxStepsAhead <= way;
+  steps_to_look_ = is_slow ? kMaxStepsAhead : std::max(1, int(way / (2 * fastest * dt)));
   const double time = steps_to_look_ * dt;
   const auto follow = [&](std::size_t body) { trees_[body]->follow(kFaster * time, gravity * time * time); };
   tbb::parallel_for(std::size_t{0}, trees_.size(), follow);

@@ -36,7 +36,7 @@ class SkinContact {
   struct ActiveContact {
     PointTriangleContact stance;
     std::uint64_t key = 0;
-    double least_speed = 0;
+    double min_speed = 0;
     double urgency = 0;  // along the normal, to satisfy its constraint, m/s
   };
 

@@ -30,7 +30,7 @@ SkinPotential::SkinPotential(const World& world, const Group& group, const std::
 void SkinPotential::lift(double gravity, double dt) {
   for (Watch& watch : watches_) {
     if (watch.initial_penetration > 0)
-      watch.initial_penetration -= dt * least_speed(-watch.initial_penetration, gravity, dt);
+      watch.initial_penetration -= dt * min_speed(-watch.initial_penetration, gravity, dt);
   }
 }
 
@@ -60,13 +60,13 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
 }
 
 void SkinPotential::refresh() {
-  if (!holds_.empty()) {
+  if (!actives_.empty()) {
     for (Watch& watch : watches_) watch.penetrations = 0;
   }
-  for (const Hold& hold : holds_) {
-    if (!hold.is_glue) watches_[hold.watch].penetrations = depth(hold, sum(hold.coupling, false));
+  for (const ActiveContact& active : actives_) {
+    if (!active.is_glue) watches_[active.watch].penetrations = depth(active, sum(active.coupling, false));
   }
-  holds_.clear();
+  actives_.clear();
   add_glue();
   for (ContactCandidates& pairs : pairs_) pairs.follow(group_);
   for (std::size_t i = 0; i < watches_.size(); ++i) {
@@ -88,12 +88,12 @@ void SkinPotential::add_glue() {
     }
     const double stiffness =
         glue_stiffness(*group_[point.bodies[0]], point.bricks[0], *group_[point.bodies[1]], point.bricks[1]);
-    holds_.push_back({.watch = 0,
-                      .is_glue = true,
-                      .coupling = std::move(coupling),
-                      .stiffness = stiffness,
-                      .normal = Vec3::Zero(),
-                      .start = Vec3::Zero()});
+    actives_.push_back({.watch = 0,
+                        .is_glue = true,
+                        .coupling = std::move(coupling),
+                        .stiffness = stiffness,
+                        .normal = Vec3::Zero(),
+                        .start = Vec3::Zero()});
   }
 }
 
@@ -111,12 +111,12 @@ void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& s
   const double stiffness =
       pair_stiffness(watches_[watch].stiffness, *group_[point.body], at.brick, *group_[other], stencil.bricks[0]);
   const Vec3 start = sum(coupling, true);
-  holds_.push_back({.watch = watch,
-                    .is_glue = false,
-                    .coupling = std::move(coupling),
-                    .stiffness = stiffness,
-                    .normal = stance.normal,
-                    .start = start});
+  actives_.push_back({.watch = watch,
+                      .is_glue = false,
+                      .coupling = std::move(coupling),
+                      .stiffness = stiffness,
+                      .normal = stance.normal,
+                      .start = start});
 }
 
 Vec3 SkinPotential::sum(const Coupling& coupling, bool at_start) const {
@@ -129,29 +129,29 @@ Vec3 SkinPotential::sum(const Coupling& coupling, bool at_start) const {
 }
 
 /// How far the point has been pushed in, m.
-double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
-  return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].initial_penetration);
+double SkinPotential::depth(const ActiveContact& active, const Vec3& now) const {
+  return std::max(0.0, -active.normal.dot(now) - watches_[active.watch].initial_penetration);
 }
 
 void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& penetrations) const {
   for (std::size_t i = 0; i < group_.size(); ++i) {
     penetrations[i]->setZero(skins_[i]->points.size());
   }
-  for (const Hold& hold : holds_) {
-    if (hold.is_glue) continue;
-    const ContactCandidates& pairs = *watches_[hold.watch].pairs;
-    const TrackedPoint& point = pairs.tracked(watches_[hold.watch].pair->point);
+  for (const ActiveContact& active : actives_) {
+    if (active.is_glue) continue;
+    const ContactCandidates& pairs = *watches_[active.watch].pairs;
+    const TrackedPoint& point = pairs.tracked(watches_[active.watch].pair->point);
     double& deepest = (*penetrations[point.body])[point.point];
-    deepest = std::max(deepest, depth(hold, sum(hold.coupling, false)));
+    deepest = std::max(deepest, depth(active, sum(active.coupling, false)));
   }
 }
 
 double SkinPotential::update_friction() {
   double change = 0;
   std::vector<double> normal_force(watches_.size());
-  for (const Hold& hold : holds_) {
-    if (hold.is_glue) continue;
-    normal_force[hold.watch] = hold.stiffness * depth(hold, sum(hold.coupling, false));
+  for (const ActiveContact& active : actives_) {
+    if (active.is_glue) continue;
+    normal_force[active.watch] = active.stiffness * depth(active, sum(active.coupling, false));
   }
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     if (watches_[i].friction > 0) change = std::max(change, std::abs(normal_force[i] - watches_[i].normal_force));
@@ -166,28 +166,28 @@ double SkinPotential::largest_normal_force() const {
   return largest;
 }
 
-FrictionPotential SkinPotential::friction_at(const Hold& hold, const Vec3& now) const {
-  const Watch& watch = watches_[hold.watch];
-  return {now - hold.start, hold.normal, watch.friction * watch.normal_force, slip_};
+FrictionPotential SkinPotential::friction_at(const ActiveContact& active, const Vec3& now) const {
+  const Watch& watch = watches_[active.watch];
+  return {now - active.start, active.normal, watch.friction * watch.normal_force, slip_};
 }
 
 double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
   double energy = 0;
-  for (const Hold& hold : holds_) {
-    const Vec3 now = sum(hold.coupling, false);
+  for (const ActiveContact& active : actives_) {
+    const Vec3 now = sum(active.coupling, false);
     Vec3 force;
-    if (hold.is_glue) {
-      energy += 0.5 * hold.stiffness * now.squaredNorm();
-      force = -hold.stiffness * now;
+    if (active.is_glue) {
+      energy += 0.5 * active.stiffness * now.squaredNorm();
+      force = -active.stiffness * now;
     } else {
-      const double deep = depth(hold, now);
-      if (deep == 0 && watches_[hold.watch].normal_force == 0) continue;
-      const FrictionPotential friction = friction_at(hold, now);
-      energy += 0.5 * hold.stiffness * deep * deep;
+      const double deep = depth(active, now);
+      if (deep == 0 && watches_[active.watch].normal_force == 0) continue;
+      const FrictionPotential friction = friction_at(active, now);
+      energy += 0.5 * active.stiffness * deep * deep;
       energy += friction.energy();
-      force = hold.stiffness * deep * hold.normal + friction.force();
+      force = active.stiffness * deep * active.normal + friction.force();
     }
-    for (const CoupledCorners& corners : hold.coupling.corners) {
+    for (const CoupledCorners& corners : active.coupling.corners) {
       const auto& nodes = group_[corners.body]->grid.nodes[corners.brick];
       for (std::size_t c = 0; c < 8; ++c) {
         forces[corners.body]->row(nodes[c]) += corners.weights[c] * force.transpose();
@@ -199,18 +199,18 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
 
 std::vector<Coupling> SkinPotential::couplings() const {
   std::vector<Coupling> couplings;
-  for (const Hold& hold : holds_) {
-    const Vec3 now = sum(hold.coupling, false);
+  for (const ActiveContact& active : actives_) {
+    const Vec3 now = sum(active.coupling, false);
     Mat3 stiffness = Mat3::Zero();
-    if (hold.is_glue) {
-      stiffness = hold.stiffness * Mat3::Identity();
+    if (active.is_glue) {
+      stiffness = active.stiffness * Mat3::Identity();
     } else {
-      const bool is_in_contact = depth(hold, now) > 0;
-      if (!is_in_contact && watches_[hold.watch].normal_force == 0) continue;
-      stiffness = friction_at(hold, now).stiffness();
-      if (is_in_contact) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
+      const bool is_in_contact = depth(active, now) > 0;
+      if (!is_in_contact && watches_[active.watch].normal_force == 0) continue;
+      stiffness = friction_at(active, now).stiffness();
+      if (is_in_contact) stiffness += active.stiffness * active.normal * active.normal.transpose();
     }
-    couplings.push_back({.corners = hold.coupling.corners, .stiffness = stiffness});
+    couplings.push_back({.corners = active.coupling.corners, .stiffness = stiffness});
   }
   return couplings;
 }

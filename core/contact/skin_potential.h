@@ -15,7 +15,7 @@ namespace sprung {
 /// the previous iteration. Glued points attract each other by k times their distance. The triangle of each point and
 /// its normal are updated before each of Newton's directions; in between the surfaces are flat. A point found inside
 /// without having been pushed in, such as where edges have crossed between their points, feels no force from that depth
-/// but is lifted by least_speed(): contact adds no energy. Forces sum to zero: momentum is conserved.
+/// but is lifted by min_speed(): contact adds no energy. Forces sum to zero: momentum is conserved.
 class SkinPotential {
  public:
   /// The parameters of a step.
@@ -61,7 +61,7 @@ class SkinPotential {
     double normal_force = 0;              // N, for friction
   };
   /// An active coupling.
-  struct Hold {
+  struct ActiveContact {
     std::size_t watch;  // in watches_; unused for glue
     bool is_glue;
     Coupling coupling;  // without its stiffness
@@ -72,11 +72,11 @@ class SkinPotential {
 
   void watch(const World& world, const std::vector<Eigen::VectorXd*>& penetrations);
   void lift(double gravity, double dt);
-  [[nodiscard]] double depth(const Hold& hold, const Vec3& now) const;
+  [[nodiscard]] double depth(const ActiveContact& active, const Vec3& now) const;
   void add_glue();
   void add_contact(std::size_t watch, const PointTriangleContact& stance);
   [[nodiscard]] Vec3 sum(const Coupling& coupling, bool at_start) const;
-  [[nodiscard]] FrictionPotential friction_at(const Hold& hold, const Vec3& now) const;
+  [[nodiscard]] FrictionPotential friction_at(const ActiveContact& active, const Vec3& now) const;
 
   const Group& group_;
   const std::vector<GluedPoint>& glue_;
@@ -85,7 +85,7 @@ class SkinPotential {
   std::vector<Points> starts_;                // by body, m x 3, m
   std::list<ContactCandidates> pairs_;
   std::vector<Watch> watches_;
-  std::vector<Hold> holds_;
+  std::vector<ActiveContact> actives_;
 };
 
 }  // namespace sprung

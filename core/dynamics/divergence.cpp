@@ -76,7 +76,7 @@ std::string remedy_for_stiff_springs(const SoftBody& body, std::size_t brick) {
   const double ratio = here / all[all.size() / 2];
   if (!(ratio > kStiffForMass)) return "";
   return fmt::format(
-      "its springs there are {:.2g} times as stiff for the mass that they move as most of the body's: use "
+      "the ratio of stiffness to mass there is {:.2g} times that of most of the body: use "
       "a softer or denser material there (region)",
       ratio);
 }

@@ -10,7 +10,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostGain = 0.3;  // of kinetic and strain energy, that a frame's time discretisation may add
+constexpr double kMaxGain = 0.3;  // of kinetic and strain energy, that a frame's time discretisation may add
 
 /// Whether something that may add energy moves it.
 bool is_driven(const SoftBody& body) {
@@ -38,7 +38,7 @@ bool has_gained(const Energy& before, const Energy& after, const World& world, s
     slack += 1e-12 * body.material.young * body.grid.volume();                 // rounding
   }
   const double gain = after.sum() - before.sum();
-  return !std::isfinite(gain) || gain > kMostGain * moving + slack;
+  return !std::isfinite(gain) || gain > kMaxGain * moving + slack;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 0xFFFFFF00;
+constexpr std::uint64_t kMaxBytes = 0xFFFFFF00;
 constexpr std::uint32_t kMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJson = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinary = 0x004E4942;  // "BIN"
@@ -176,7 +176,7 @@ double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::ve
   for (const AnimatedMesh& mesh : meshes) {
     bytes += vertex_bytes * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
   }
-  if (bytes > kMostBytes) {
+  if (bytes > kMaxBytes) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
                             file.string(), 1e-9 * double(bytes)));

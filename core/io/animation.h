@@ -24,7 +24,7 @@ struct AnimatedMesh {
 
 /// Players keep an image per morph target, and the weights grow with the square of their number: longer films should
 /// be thinned out.
-inline constexpr std::size_t kMostTargets = 250;
+inline constexpr std::size_t kMaxTargets = 250;
 
 enum class GlbPrecision { kFloat, kQuantized };  // kQuantized: half the bytes, see add_quantized() in glb_buffer.h
 

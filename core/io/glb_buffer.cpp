@@ -12,9 +12,9 @@ constexpr int kShort = 5122;
 constexpr int kFloat = 5126;
 constexpr int kUnsigned = 5125;
 
-constexpr float kMostShort = 32766;  // one to spare for differences of rounded numbers
-constexpr float kMostByte = 127;
-constexpr float kLeastLength = 0.25F;  // of a scaled normal
+constexpr float kMaxShort = 32766;  // one to spare for differences of rounded numbers
+constexpr float kMaxByte = 127;
+constexpr float kMinLength = 0.25F;  // of a scaled normal
 
 template <class Row>
 GltfJson json_list(const Row& row) {
@@ -61,7 +61,7 @@ Lattice lattice_of(const std::vector<Floats3>& positions) {
   const Eigen::RowVector3f high = first.colwise().maxCoeff();
   float reach = 0.5F * (high - low).maxCoeff();
   for (const Floats3& later : positions) reach = std::max(reach, (later - first).cwiseAbs().maxCoeff());
-  return {.origin = 0.5F * (low + high), .step = reach > 0 ? reach / kMostShort : 1};
+  return {.origin = 0.5F * (low + high), .step = reach > 0 ? reach / kMaxShort : 1};
 }
 
 /// The greatest length, at most 1, at which `normal` minus `base` has no component outside [-1, 1].
@@ -74,14 +74,14 @@ float fitting_length(const Eigen::RowVector3f& normal, const Eigen::RowVector3f&
   return length;
 }
 
-Bytes3 bytes_of(const Floats3& normals) { return (kMostByte * normals).array().round().cast<std::int8_t>(); }
+Bytes3 bytes_of(const Floats3& normals) { return (kMaxByte * normals).array().round().cast<std::int8_t>(); }
 
 /// The targets that take the base to these normals; nothing if they do not fit.
 std::optional<Bytes3> normal_targets(const Floats3& normals, const Floats3& base) {
   Floats3 targets(normals.rows(), 3);
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {
     const float length = fitting_length(normals.row(i), base.row(i));
-    if (length < kLeastLength) return std::nullopt;
+    if (length < kMinLength) return std::nullopt;
     targets.row(i) = length * normals.row(i) - base.row(i);
   }
   return bytes_of(targets);
@@ -174,7 +174,7 @@ GlbVertices add_quantized(GlbBuffer& buffer, const AnimatedMesh& mesh) {
   const Lattice lattice = lattice_of(mesh.positions);
   const Integers3 first = lattice.quantize(mesh.positions.front());
   const Bytes3 base_bytes = bytes_of(mesh.normals.front());
-  const Floats3 base = base_bytes.cast<float>() / kMostByte;
+  const Floats3 base = base_bytes.cast<float>() / kMaxByte;
   GlbVertices vertices;
   vertices.positions = {buffer.add_shorts(first.cast<std::int16_t>())};
   vertices.normals = {buffer.add_bytes(base_bytes)};

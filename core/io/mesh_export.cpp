@@ -169,9 +169,9 @@ void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::
   if (format == nullptr) throw Error(ErrorKind::kUsage, fmt::format("'{}': no known format", file.string()));
   for (const PosedMesh& mesh : meshes) {
     const std::size_t count = mesh.positions.rows();
-    if (format->most_vertices == 0 || count <= format->most_vertices) continue;
+    if (format->max_vertices == 0 || count <= format->max_vertices) continue;
     throw Error(ErrorKind::kBadInput, fmt::format("{} has {} vertices, more than the {} that {} files can hold",
-                                                  mesh.name, count, format->most_vertices, format->extension));
+                                                  mesh.name, count, format->max_vertices, format->extension));
   }
   if (format->writer.empty()) return write_obj(meshes, file);
   write_by_assimp(format->is_z_up ? z_up_from_y_up(meshes) : meshes, *format, file);

@@ -53,13 +53,13 @@ struct MeshContent {
 
 /// A file format for the meshes of one frame. All preserve positions, triangles and their order.
 struct MeshFormat {
-  std::string_view extension;     // ".obj"
-  std::string_view what;          // for messages
-  std::string_view writer;        // assimp's name of its writer; empty: ours
-  MeshContent keeps;              // what readers find in its files
-  std::size_t most_vertices = 0;  // per part; 0: no limit
-  bool is_z_up = false;           // by convention of its readers
-  bool is_flat = false;           // its writer reorders nodes, so all meshes go into one
+  std::string_view extension;    // ".obj"
+  std::string_view what;         // for messages
+  std::string_view writer;       // assimp's name of its writer; empty: ours
+  MeshContent keeps;             // what readers find in its files
+  std::size_t max_vertices = 0;  // per part; 0: no limit
+  bool is_z_up = false;          // by convention of its readers
+  bool is_flat = false;          // its writer reorders nodes, so all meshes go into one
 };
 
 /// The formats that round-trip, as the tests verify.

@@ -17,8 +17,8 @@ using Strain = Eigen::Matrix3d;
 
 constexpr double kSame = 1e-9;       // relative: numbers closer than that are the same
 constexpr double kAnyPoisson = 0.3;  // the counts do not depend on it
-constexpr double kLeastPoisson = -0.9;
-constexpr double kMostPoisson = 0.49;
+constexpr double kMinPoisson = -0.9;
+constexpr double kMaxPoisson = 0.49;
 constexpr int kScan = 140;  // ratios tested between the two
 
 /// What symmetry can distinguish: the sides that a spring spans; for an entry of M a negative mark, then its sides.
@@ -161,7 +161,7 @@ double misfit(const SpringConfiguration& configuration, double poisson) {
 }
 
 /// Golden section. The misfit falls linearly to a zero, so it is found to rounding.
-double least_misfit(const SpringConfiguration& configuration, double low, double high) {
+double min_misfit(const SpringConfiguration& configuration, double low, double high) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   while (high - low > 1e-14) {
     const double left = high - golden * (high - low);
@@ -176,15 +176,15 @@ double least_misfit(const SpringConfiguration& configuration, double low, double
 }
 
 void find_solvable_ratios(const SpringConfiguration& configuration, EquationCount& count) {
-  const double stride = (kMostPoisson - kLeastPoisson) / kScan;
+  const double stride = (kMaxPoisson - kMinPoisson) / kScan;
   Eigen::VectorXd misfits(kScan + 1);
-  for (int i = 0; i <= kScan; ++i) misfits[i] = misfit(configuration, kLeastPoisson + i * stride);
+  for (int i = 0; i <= kScan; ++i) misfits[i] = misfit(configuration, kMinPoisson + i * stride);
   count.solvable = misfits.maxCoeff() < kSame;
   if (count.solvable) return;
   int best = 0;
   misfits.minCoeff(&best);
-  const double centre = kLeastPoisson + best * stride;
-  const double poisson = least_misfit(configuration, centre - stride, centre + stride);
+  const double centre = kMinPoisson + best * stride;
+  const double poisson = min_misfit(configuration, centre - stride, centre + stride);
   if (misfit(configuration, poisson) < kSame) count.poisson = poisson;
 }
 

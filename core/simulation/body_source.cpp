@@ -41,7 +41,7 @@ constexpr double kFarAway = 1e4;
 
 /// Surface points at which the thickness of a body is sampled.
 constexpr double kFewestWallSamples = 20000;
-constexpr double kMostWallSamples = 200000;
+constexpr double kMaxWallSamples = 200000;
 constexpr double kWallSamplesABrick = 4;  // that the surface cuts
 
 void warn_if_far_away(const SceneBody& body, const SurfaceMesh& mesh, double sizes, const Observer& observer) {
@@ -224,7 +224,7 @@ std::string reason_of(const BrickChoice& choice) {
 std::vector<std::vector<WallSample>> sample_walls(const LoadedBody& loaded) {
   double bricks = 0;
   for (const Solid& solid : loaded.solids) bricks += surface_area(solid) / (loaded.brick_size * loaded.brick_size);
-  const double count = std::clamp(kWallSamplesABrick * bricks, kFewestWallSamples, kMostWallSamples);
+  const double count = std::clamp(kWallSamplesABrick * bricks, kFewestWallSamples, kMaxWallSamples);
   return sample_thickness(loaded.solids, int(count));
 }
 

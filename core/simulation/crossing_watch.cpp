@@ -119,19 +119,20 @@ std::vector<CrossingWatch::Found> CrossingWatch::find(const std::vector<const Po
   std::vector<RowPairs> cells(tasks_.size());
   const auto for_each_task = [&](const auto& work) { tbb::parallel_for(std::size_t{0}, tasks_.size(), work); };
   for_each_task([&](std::size_t i) { cells[i] = cells_of(tasks_[i], time); });
-  place(cells);
+  place_vertices(cells);
   for_each_task([&](std::size_t i) { found[i].pairs = pairs_of(tasks_[i], cells[i], time); });
   return found;
 }
 
-void CrossingWatch::place(const std::vector<RowPairs>& cells) {
+void CrossingWatch::place_vertices(const std::vector<RowPairs>& cells) {
   std::vector<std::vector<int>> wanted(surfaces_.size());
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     for (std::size_t side = 0; side < 2; ++side) {
       for (const auto& pair : cells[i]) wanted[tasks_[i].skins[side]].push_back(pair[side]);
     }
   }
-  tbb::parallel_for(std::size_t{0}, surfaces_.size(), [&](std::size_t skin) { surfaces_[skin].place(wanted[skin]); });
+  tbb::parallel_for(std::size_t{0}, surfaces_.size(),
+                    [&](std::size_t skin) { surfaces_[skin].place_vertices(wanted[skin]); });
 }
 
 template <class Visit>

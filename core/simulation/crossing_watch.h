@@ -58,7 +58,7 @@ class CrossingWatch {
   /// By task: all pairs that cross now.
   [[nodiscard]] std::vector<Found> find(const std::vector<const Points*>& nodes, double time);
   [[nodiscard]] RowPairs cells_of(const Task& task, double time) const;
-  void place(const std::vector<RowPairs>& cells);
+  void place_vertices(const std::vector<RowPairs>& cells);
   [[nodiscard]] RowPairs pairs_of(const Task& task, const RowPairs& cells, double time) const;
   [[nodiscard]] CrossingDepth depth_of(const Task& task, const RowPairs& pairs, double time) const;
   template <class Visit>

@@ -9,8 +9,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostContraction = 0.9;  // however strong
-constexpr double kLongestPiece = 0.005;   // s; steps of a changing load that are too short to be visible
+constexpr double kMaxContraction = 0.9;  // however strong
+constexpr double kLongestPiece = 0.005;  // s; steps of a changing load that are too short to be visible
 
 /// At t = 0 a movement is the identity; a curve has its first value there.
 Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolation) {
@@ -104,7 +104,7 @@ Loads LoadDriver::loads_at(std::size_t row, double time) const {
     const double strength = curves.muscles[part.muscle].strength(time);
     if (strength == 0) continue;
     Muscle& muscle = loads.muscles.emplace_back(part.full);
-    muscle.contraction = std::min(strength * muscle.contraction, kMostContraction);
+    muscle.contraction = std::min(strength * muscle.contraction, kMaxContraction);
   }
   return loads;
 }

@@ -30,7 +30,7 @@ class Loading {
     for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
       if (!simulation.world.bodies[row].pinned.empty() || !simulation.origins[row].pinned_skins.empty()) continue;
       throw Error(ErrorKind::kBadInput,
-                  "a body without pins cannot come to rest; give it a [[body.pin]], or use "
+                  "a body without pins has no equilibrium; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
     const auto wholes = forced_wholes(scene, simulation.origins);
@@ -121,7 +121,7 @@ void check_balance(const Points& positions, const Points& loads, const Points& r
   if (force.norm() <= kLeft * forces && moment.norm() <= kLeft * moments) return;
   throw Error(ErrorKind::kFailed,
               fmt::format("the reactions do not balance the loads: {:.2g} of the forces and {:.2g} of the moments are "
-                          "left over; hold more of the body, or use fewer bricks where it is slender",
+                          "left unbalanced; support more of the body, or use fewer bricks where it is slender",
                           force.norm() / forces, moment.norm() / moments));
 }
 
@@ -129,7 +129,7 @@ void check_balance(const Points& positions, const Points& loads, const Points& r
 
 Points settle(SoftBody& body, const Supports& supports, const Loads& loads, const Points& movements, bool linear,
               LinearSolver& solver, int& newton_steps, const std::function<void()>& between) {
-  constexpr int kMostTurns = 60;
+  constexpr int kMaxTurns = 60;
   constexpr double kTurned = 1e-7;  // of the forces at work
   if (linear) {
     body.positions = body.rest_positions;
@@ -144,7 +144,7 @@ Points settle(SoftBody& body, const Supports& supports, const Loads& loads, cons
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     if (supports.fixed[i]) body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
   }
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kMaxTurns; ++turn) {
     const Points forces = loads.forces + pressures;
     newton_steps += solve_static(body, supports, forces, start, solver, {.between = between}).iterations;
     Points pin_forces = reactions(body, supports, forces);
@@ -156,11 +156,10 @@ Points settle(SoftBody& body, const Supports& supports, const Loads& loads, cons
     pressures = turned;
     start = body.positions;
   }
-  throw Error(
-      ErrorKind::kDiverged,
-      fmt::format("a pressure that turns with the skin finds no equilibrium in {} turns; use more load steps, or "
-                  "less pressure",
-                  kMostTurns));
+  throw Error(ErrorKind::kDiverged,
+              fmt::format("a pressure that follows the skin did not converge in {} iterations; use more load steps, or "
+                          "less pressure",
+                          kMaxTurns));
 }
 
 Recording record_equilibria(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {
@@ -192,7 +191,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   check_rests(scene);
   if (simulation.world.bodies.size() != 1) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("modes are those of one body, the scene has {}", simulation.world.bodies.size()));
+                fmt::format("modes are computed for one body; the scene has {}", simulation.world.bodies.size()));
   }
   Progress progress(observer, "modes");
   SoftBody& body = simulation.world.bodies[0];
@@ -215,10 +214,10 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   }
   recorder.recording().frequencies = modes.frequencies;
   if (modes.rigid > 0) {
-    observer.note(fmt::format("{} that nothing holds {} set aside", count_of(modes.rigid, "rigid motion"),
+    observer.note(fmt::format("{} {} set aside", count_of(modes.rigid, "free rigid-body motion"),
                               modes.rigid == 1 ? "is" : "are"));
   }
-  progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));
+  progress.finish(fmt::format("{} modes, the lowest at {:.6g} Hz", count, modes.frequencies[0]));
   return recorder.finish();
 }
 

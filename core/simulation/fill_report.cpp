@@ -61,10 +61,10 @@ void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
 void FillReport::tell(const Observer& observer) const {
   if (furthest_outside_ > kFarOutside) {
     observer.note(
-        fmt::format("{}: {} in no brick, up to {:.2g} bricks from the nearest, and {} what that does; more "
-                    "bricks hold them better",
+        fmt::format("{}: {} outside all bricks, by up to {:.2g} bricks, and {} the motion of the nearest "
+                    "brick; smaller bricks hold them better",
                     body_.name, count_of(outside_, "skin vertex is", "skin vertices are"), furthest_outside_,
-                    outside_ == 1 ? "continues" : "continue"));
+                    outside_ == 1 ? "follows" : "follow"));
   }
   if (slivers_ > 0) {
     observer.detail(

@@ -50,7 +50,7 @@ std::vector<int> row_nearest_to(const Vec3& position, const Points& points) {
 
 std::vector<int> Selector::nodes(const Selection& selection, const Points& positions, std::size_t solid) const {
   if (selection.nearest) {
-    const Vec3 position = place_of(*selection.nearest);
+    const Vec3 position = position_of(*selection.nearest);
     return solid_nearest_to(position) == solid ? row_nearest_to(position, positions) : std::vector<int>{};
   }
   return rows_where(positions, test_of(selection, kAlmostHalf * body_.brick_size, body_.brick_size));
@@ -72,7 +72,7 @@ std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& g
     return all;
   }
   if (selection.nearest) {
-    const Vec3 position = place_of(*selection.nearest);
+    const Vec3 position = position_of(*selection.nearest);
     return solid_nearest_to(position) == solid ? row_nearest_to(position, middles) : std::vector<int>{};
   }
   const double margin = kSelectionRounding * body_.extent.maxCoeff();
@@ -90,7 +90,7 @@ std::vector<SkinPiece> Selector::skin_pieces(const Selection& selection, const P
                                              const Triangles& triangles, std::size_t solid) const {
   if (is_whole(selection)) return pieces_where(points, triangles, 0, [](const Vec3&) { return true; });
   if (selection.nearest) {
-    const Vec3 position = place_of(*selection.nearest);
+    const Vec3 position = position_of(*selection.nearest);
     if (solid_nearest_to(position) != solid || triangles.rows() == 0) return {};
     return {{.triangle = NearestTriangle(points, triangles).at(position).triangle}};
   }
@@ -99,14 +99,14 @@ std::vector<SkinPiece> Selector::skin_pieces(const Selection& selection, const P
                       test_of(selection, kSurfaceRounding * body_.extent.maxCoeff(), body_.brick_size));
 }
 
-Vec3 Selector::place_of(const Vec3& fractions) const {
+Vec3 Selector::position_of(const Vec3& fractions) const {
   return body_.bricks_from_rest * ((fractions.array() - 0.5) * body_.extent.array()).matrix();
 }
 
 Vec3 Selector::centre(const Selection& selection) const {
-  if (selection.box) return place_of((selection.box->min.cwiseMax(0) + selection.box->max.cwiseMin(1)) / 2);
-  if (selection.sphere) return place_of(selection.sphere->centre);
-  if (selection.nearest) return place_of(*selection.nearest);
+  if (selection.box) return position_of((selection.box->min.cwiseMax(0) + selection.box->max.cwiseMin(1)) / 2);
+  if (selection.sphere) return position_of(selection.sphere->centre);
+  if (selection.nearest) return position_of(*selection.nearest);
   if (!selection.mesh.empty()) return middle_of(read_enclosure(selection.mesh).positions);
   const Points& vertices = body_.mesh.positions;
   const std::vector<int> chosen = rows_where(vertices, test_of(selection, 0, 0));
@@ -117,18 +117,18 @@ Selector::Test Selector::test_of(const Selection& selection, double margin, doub
   if (selection.box) return test_of(*selection.box, margin);
   if (selection.sphere) {
     const double reach = selection.sphere->radius * body_.extent.maxCoeff() + margin;
-    return [reach, centre = place_of(selection.sphere->centre)](const Vec3& position) {
+    return [reach, centre = position_of(selection.sphere->centre)](const Vec3& position) {
       return (position - centre).norm() <= reach;
     };
   }
   if (selection.half_space) {
     const Vec3 normal = body_.bricks_from_rest * selection.half_space->normal.normalized();
-    return [margin, normal, point = place_of(selection.half_space->point)](const Vec3& position) {
+    return [margin, normal, point = position_of(selection.half_space->point)](const Vec3& position) {
       return normal.dot(position - point) >= -margin;
     };
   }
   if (!selection.part.empty()) return nearest_to(triangles_of(selection.part), depth);
-  if (selection.face) return nearest_to(face_at(place_of(*selection.face)), depth);
+  if (selection.face) return nearest_to(face_at(position_of(*selection.face)), depth);
   if (selection.painted) return nearest_to_paint(*selection.painted, depth);
   return enclosed_by(selection.mesh);
 }
@@ -204,10 +204,10 @@ std::vector<bool> Selector::vertices_of(const Color& paint) const {
                                                 colors.rows() == 0 ? "; the mesh has no vertex colours at all" : ""));
 }
 
-int Selector::nearest_vertex(const SurfaceProjection& place) const {
-  const Eigen::RowVector3i corners = body_.mesh.triangles.row(place.triangle);
+int Selector::nearest_vertex(const SurfaceProjection& position) const {
+  const Eigen::RowVector3i corners = body_.mesh.triangles.row(position.triangle);
   const auto distance = [&](int vertex) {
-    return (body_.mesh.positions.row(vertex).transpose() - place.point).squaredNorm();
+    return (body_.mesh.positions.row(vertex).transpose() - position.point).squaredNorm();
   };
   return *std::min_element(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
 }
@@ -264,8 +264,8 @@ Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& posit
   const Material& first = region.material;
   if (!region.gradient) return {.young = first.young, .density = first.density};
   const Material& second = region.gradient->material;
-  const Vec3 from = selector.place_of(region.gradient->from);
-  const Vec3 way = selector.place_of(region.gradient->to) - from;
+  const Vec3 from = selector.position_of(region.gradient->from);
+  const Vec3 way = selector.position_of(region.gradient->to) - from;
   const double share = std::clamp(way.dot(position - from) / way.squaredNorm(), 0.0, 1.0);
   return {.young = std::lerp(first.young, second.young, share),
           .density = std::lerp(first.density, second.density, share)};

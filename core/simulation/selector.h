@@ -38,7 +38,7 @@ class Selector {
   [[nodiscard]] Vec3 centre(const Selection& selection) const;
 
   /// A point given in fractions of the bounding box.
-  [[nodiscard]] Vec3 place_of(const Vec3& fractions) const;
+  [[nodiscard]] Vec3 position_of(const Vec3& fractions) const;
 
  private:
   using Test = std::function<bool(const Vec3& position)>;

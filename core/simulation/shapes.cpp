@@ -15,11 +15,11 @@ namespace sprung {
 namespace {
 
 constexpr double kWhole = 1e-6;  // tolerance of a whole number of bricks
-constexpr double kMostBricks = 1e8;
+constexpr double kMaxBricks = 1e8;
 
 Eigen::Vector3i brick_counts(const Vec3& sides, double brick_size) {
   const Eigen::Array3d counts = sides.array() / brick_size;
-  if (counts.prod() > kMostBricks) {
+  if (counts.prod() > kMaxBricks) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("a box of {:.3g} bricks is too much; use larger bricks", counts.prod()));
   }

@@ -20,7 +20,7 @@ constexpr double kObstacleCost = 300;  // of those that may come to lie on obsta
 constexpr double kCoupledCost = 600;   // of bodies that may collide or are glued
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit steps per frame
-constexpr long kMostSteps = 16;
+constexpr long kMaxSteps = 16;
 constexpr double kWorthwhile = 2;  // times faster, to accept the numerical damping of implicit steps
 
 /// s; the slowest vibration of all bodies (estimated as in rayleigh_from_damping()).
@@ -37,7 +37,7 @@ double shortest_period(const World& world) {
 
 long implicit_steps(const World& world, double frame) {
   const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
-  return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
+  return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMaxSteps);
 }
 
 double implicit_cost(const World& world) {

@@ -15,13 +15,13 @@
 namespace sprung {
 namespace {
 
-constexpr double kSeamCosine = 0.94;     // normals on both sides of an edge that agree to 20 degrees are one
-constexpr double kSteepCosine = 0.5;     // edges steeper than 60 degrees on their normals stay straight
-constexpr double kShortestEdge = 30;     // tolerances: shorter edges are not halved
-constexpr int kMostPasses = 6;           // halvings of an edge: curves over a crumpled mesh need not converge ...
-constexpr int kMostTriangles = 1 << 19;  // ... and from here on they are not refined further
-constexpr double kSliverLength = 8;      // largest edges: longer triangles ...
-constexpr double kSliverWidth = 0.5;     // ... and narrower ones are cut across at once
+constexpr double kSeamCosine = 0.94;    // normals on both sides of an edge that agree to 20 degrees are one
+constexpr double kSteepCosine = 0.5;    // edges steeper than 60 degrees on their normals stay straight
+constexpr double kShortestEdge = 30;    // tolerances: shorter edges are not halved
+constexpr int kMaxPasses = 6;           // halvings of an edge: curves over a crumpled mesh need not converge ...
+constexpr int kMaxTriangles = 1 << 19;  // ... and from here on they are not refined further
+constexpr double kSliverLength = 8;     // largest edges: longer triangles ...
+constexpr double kSliverWidth = 0.5;    // ... and narrower ones are cut across at once
 
 /// From one end of an edge to the other: a cubic by its ends and the derivatives there, over [0, 1].
 struct EdgeCurve {
@@ -164,7 +164,7 @@ class Refiner {
   }
 
   [[nodiscard]] bool is_long(int a, int b) const {
-    if (!((place_of(a) - place_of(b)).squaredNorm() > max_squared_)) return false;
+    if (!((position_of(a) - position_of(b)).squaredNorm() > max_squared_)) return false;
     return curves_ == nullptr || (*curves_)(a, b).height() > tolerance_;
   }
 
@@ -174,27 +174,27 @@ class Refiner {
     const int next = int(skin_.positions.rows()) + isize(ends_);
     const auto [entry, is_new] = middles_.try_emplace(edge_key(a, b), next);
     if (is_new) {
-      new_places_.push_back((place_of(a) + place_of(b)) / 2);
+      new_positions_.push_back((position_of(a) + position_of(b)) / 2);
       ends_.push_back({std::min(a, b), std::max(a, b)});
     }
     return entry->second;
   }
 
-  [[nodiscard]] Eigen::RowVector3d place_of(int vertex) const {
+  [[nodiscard]] Eigen::RowVector3d position_of(int vertex) const {
     const auto old = int(skin_.positions.rows());
-    return vertex < old ? Eigen::RowVector3d(skin_.positions.row(vertex)) : new_places_[vertex - old];
+    return vertex < old ? Eigen::RowVector3d(skin_.positions.row(vertex)) : new_positions_[vertex - old];
   }
 
   /// Whether the triangle is long and narrow; `v` is turned so that its longest edge is the first.
   [[nodiscard]] bool is_sliver(std::array<int, 3>& v) const {
     if (curves_ != nullptr) return false;
     std::array<double, 3> squared{};
-    for (std::size_t i = 0; i < 3; ++i) squared[i] = (place_of(v[i]) - place_of(v[(i + 1) % 3])).squaredNorm();
+    for (std::size_t i = 0; i < 3; ++i) squared[i] = (position_of(v[i]) - position_of(v[(i + 1) % 3])).squaredNorm();
     const auto longest = std::max_element(squared.begin(), squared.end()) - squared.begin();
     if (!(squared[longest] > kSliverLength * kSliverLength * max_squared_)) return false;
     std::rotate(v.begin(), v.begin() + longest, v.end());
-    const Vec3 along = place_of(v[1]) - place_of(v[0]);
-    const Vec3 aside = place_of(v[2]) - place_of(v[0]);
+    const Vec3 along = position_of(v[1]) - position_of(v[0]);
+    const Vec3 aside = position_of(v[2]) - position_of(v[0]);
     return along.cross(aside).squaredNorm() <= kSliverWidth * kSliverWidth * max_squared_ * along.squaredNorm();
   }
 
@@ -216,8 +216,8 @@ class Refiner {
     add_chain(v[0], v[1], low);
     add_chain(v[0], v[2], high);
     add_chain(v[2], v[1], high);
-    const Eigen::RowVector3d along = place_of(v[1]) - place_of(v[0]);
-    const auto progress = [&](int vertex) { return along.dot(place_of(vertex)); };
+    const Eigen::RowVector3d along = position_of(v[1]) - position_of(v[0]);
+    const auto progress = [&](int vertex) { return along.dot(position_of(vertex)); };
     std::size_t i = 0;
     std::size_t j = 0;
     while (i + 1 < low.size() || j + 1 < high.size()) {
@@ -272,8 +272,8 @@ class Refiner {
   Middles& middles_;
   const EdgeCurves* curves_;
   double tolerance_;
-  std::vector<std::array<int, 2>> ends_;        // of the edges whose middles are new vertices
-  std::vector<Eigen::RowVector3d> new_places_;  // of these
+  std::vector<std::array<int, 2>> ends_;           // of the edges whose middles are new vertices
+  std::vector<Eigen::RowVector3d> new_positions_;  // of these
   std::vector<std::array<int, 3>> triangles_;
 };
 
@@ -300,8 +300,8 @@ void refine(Skin& skin, double max_edge) {
 void refine_curves(Skin& skin, double tolerance) {
   const double max_edge = kShortestEdge * tolerance;
   Points interpolated = skin.normals;  // look smoother than normals of the curves, which show dents at every edge
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    if (skin.triangles.rows() > kMostTriangles || !has_edge_longer_than(skin, max_edge)) break;
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    if (skin.triangles.rows() > kMaxTriangles || !has_edge_longer_than(skin, max_edge)) break;
     const EdgeCurves curves(skin);
     Middles middles;
     Refiner refiner(skin, max_edge, middles, &curves, tolerance);

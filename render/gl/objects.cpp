@@ -162,19 +162,19 @@ GlProgram::GlProgram(const GlFunctions& gl, const std::string& name, const std::
   throw Error(ErrorKind::kFailed, "shader " + name + ": " + log.data());
 }
 
-void GlProgram::set(const char* name, int value) const { gl_->Uniform1i(place(name), value); }
-void GlProgram::set(const char* name, float value) const { gl_->Uniform1f(place(name), value); }
+void GlProgram::set(const char* name, int value) const { gl_->Uniform1i(location(name), value); }
+void GlProgram::set(const char* name, float value) const { gl_->Uniform1f(location(name), value); }
 void GlProgram::set(const char* name, const Eigen::Vector2f& value) const {
-  gl_->Uniform2f(place(name), value.x(), value.y());
+  gl_->Uniform2f(location(name), value.x(), value.y());
 }
 void GlProgram::set(const char* name, const Eigen::Vector3f& value) const {
-  gl_->Uniform3f(place(name), value.x(), value.y(), value.z());
+  gl_->Uniform3f(location(name), value.x(), value.y(), value.z());
 }
 void GlProgram::set(const char* name, const Eigen::Vector4f& value) const {
-  gl_->Uniform4f(place(name), value.x(), value.y(), value.z(), value.w());
+  gl_->Uniform4f(location(name), value.x(), value.y(), value.z(), value.w());
 }
 void GlProgram::set(const char* name, const Eigen::Matrix4f& value) const {
-  gl_->UniformMatrix4fv(place(name), 1, GL_FALSE, value.data());
+  gl_->UniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }
 
 void bind_texture(const GlFunctions& gl, int unit, const GlTexture& texture, GLuint sampler) {

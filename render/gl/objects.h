@@ -99,7 +99,7 @@ class GlProgram {
   void set(const char* name, const Eigen::Matrix4f& value) const;
 
  private:
-  [[nodiscard]] GLint place(const char* name) const { return gl_->GetUniformLocation(program_.name(), name); }
+  [[nodiscard]] GLint location(const char* name) const { return gl_->GetUniformLocation(program_.name(), name); }
 
   const GlFunctions* gl_ = nullptr;
   GlObject<detail::delete_program> program_;

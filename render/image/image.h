@@ -32,7 +32,7 @@ enum class Quality { kPreview, kDefault, kHigh, kFinal };
 }
 
 /// Time spent in one stage of drawing, over all pictures so far.
-struct PassTime {
+struct DrawTime {
   std::string_view pass;
   double wall = 0;       // s
   double processor = 0;  // s, of all threads

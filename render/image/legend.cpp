@@ -15,7 +15,7 @@ namespace {
 constexpr double kLetters = 0.030;         // of the picture's height ...
 constexpr double kSmallestLetters = 11.0;  // pixels
 constexpr double kBarHeight = 0.46;        // of the picture's height
-constexpr double kLeastRoom = 0.285;       // of the picture's height, reserved for a legend
+constexpr double kMinRoom = 0.285;         // of the picture's height, reserved for a legend
 constexpr double kBarWidth = 0.024;        // of the picture's height
 
 std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
@@ -116,7 +116,7 @@ double content_width(const Legend& legend, int height, const Font& font) {
 }  // namespace
 
 double legend_width(const Legend& legend, int height, const Font& font) {
-  return std::max(content_width(legend, height, font) + 2 * kLabelMargin * height, kLeastRoom * height);
+  return std::max(content_width(legend, height, font) + 2 * kLabelMargin * height, kMinRoom * height);
 }
 
 void draw_legend(Image& image, const Legend& legend, const Font& font) {

@@ -11,7 +11,7 @@ namespace sprung {
 
 namespace {
 
-constexpr double kMostTicks = 4;
+constexpr double kMaxTicks = 4;
 constexpr double kWidth = 0.26;   // of the picture's width
 constexpr double kHeight = 0.22;  // of the picture's height
 
@@ -65,7 +65,7 @@ void draw_curve(Image& image, const Frame& frame, const Plot::Curve& curve, std:
 
 void draw_axis(Image& image, const Frame& frame, double size, const Font& font) {
   const double line = std::max(1.0, image.height / 720.0);
-  for (const double tick : round_ticks(frame.low, frame.high, kMostTicks)) {
+  for (const double tick : round_ticks(frame.low, frame.high, kMaxTicks)) {
     const double y = frame.y(tick);
     fill_rectangle(image, frame.left, y - line / 2, frame.right, y + line / 2, kDarkInk, 0.18);
     const std::string text = text_of(tick);
@@ -104,7 +104,7 @@ void draw_panel(Image& image, const Plot& plot, Frame& frame, double size, const
   write(plot.title, kDarkInk);
   for (const Plot::Curve& curve : plot.curves) write(curve.name, curve.ink);
   double widest = 0;
-  for (const double tick : round_ticks(frame.low, frame.high, kMostTicks))
+  for (const double tick : round_ticks(frame.low, frame.high, kMaxTicks))
     widest = std::max(widest, font.width(text_of(tick), size));
   frame.left = margin + widest + 1.2 * size;
   frame.right = right - 0.8 * size;

@@ -20,7 +20,7 @@ out float map_coordinate;
 uniform vec3 stage_center;  // m
 uniform float stage_scale;  // 1/m
 uniform mat4 clip_from_stage;
-uniform float least_opacity;  // of what is drawn
+uniform float min_opacity;  // of what is drawn
 
 out vec3 place;
 out vec3 surface_normal;
@@ -41,5 +41,5 @@ void main() {
 #ifdef THROUGH
   vertex_through = through;
 #endif
-  gl_Position = opacity < least_opacity ? vec4(0.0, 0.0, 2.0, 1.0) : clip_from_stage * vec4(place, 1.0);
+  gl_Position = opacity < min_opacity ? vec4(0.0, 0.0, 2.0, 1.0) : clip_from_stage * vec4(place, 1.0);
 }

@@ -15,8 +15,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kHeight = 64;  // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
 constexpr int kWidestBackground = 4096;
-constexpr float kMostSeen = 60000;  // light of a background: textures hold it as half floats
-constexpr int kSharpest = 4;        // one over the roughness of the first level
+constexpr float kMaxSeen = 60000;  // light of a background: textures hold it as half floats
+constexpr int kSharpest = 4;       // one over the roughness of the first level
 
 /// Downsampled to that height, weighted by solid angle; black below the horizon.
 Panorama upper_half(const Panorama& panorama, int height) {
@@ -136,7 +136,7 @@ Environment::Environment(const Panorama& panorama, const EnvironmentUse& use) {
   Panorama around = turned(panorama, use.turn);
   if (use.is_seen) {
     Panorama seen = no_wider_than(around, kWidestBackground);
-    for (Eigen::Vector3f& light : seen.light) light = light.cwiseMin(kMostSeen);
+    for (Eigen::Vector3f& light : seen.light) light = light.cwiseMin(kMaxSeen);
     background = std::make_shared<const Panorama>(std::move(seen));
   }
   if (use.has_sun) sun = extract_sun(around);

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kMostSteps = 512;
+constexpr int kMaxSteps = 512;
 constexpr int kSureSteps = 4;  // before Russian roulette may end a walk
 
 Vector3f on_sphere(const Eigen::Vector2f& random) {
@@ -51,7 +51,7 @@ std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Media
   interior.enter(entry);
   Vector3f share = Vector3f::Ones();
   bool is_scattered = false;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     ray.far = -std::log(1 - sampler.number()) / interior.medium().scattering;
     const std::optional<SurfacePoint> met = skins.first_hit(ray);
     share = share.cwiseProduct(interior.medium().kept(met ? met->distance : ray.far));

@@ -25,7 +25,7 @@ constexpr float kLittle = 1e-3F;        // of a groove, by which rays continue b
 constexpr double kChord = 0.1;          // lift over the sides of coarse triangles
 constexpr float kTurned = 0.1F;         // sine of an angle by which triangles may be turned away
 constexpr std::size_t kFewProbes = 5;   // times fewer than the most: each then gets more rays
-constexpr int kMostRays = 8;            // times as many from a probe, if there are few probes
+constexpr int kMaxRays = 8;             // times as many from a probe, if there are few probes
 constexpr double kMirrorSpacing = 0.5;  // of the probes of metals, over that of others
 constexpr int kMirrorRays = 8;
 constexpr float kMirrorBlur = 0.06F;     // tangent of an angle: about that of steel's roughness
@@ -54,13 +54,13 @@ Eigen::Matrix3f rotation(std::size_t i) {
 
 }  // namespace
 
-GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
+GatheredLight::GatheredLight(const Stage& stage, int rays, int max_probes)
     : space_(stage.bounds),
       stage_light_(stage),
       irradiance_(stage_light_),
       media_(stage, space_),
       stage_skins_(stage.skins) {
-  const std::vector<double> spacings = probe_spacings(stage_skins_, most_probes);
+  const std::vector<double> spacings = probe_spacings(stage_skins_, max_probes);
   for (std::size_t i = 0; i < stage_skins_.size(); ++i) {
     const Skin& skin = *stage_skins_[i];
     paints_.emplace_back(skin, stage.default_colors[i], stage.color_map, pictures_);
@@ -81,7 +81,7 @@ GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
   std::size_t probes = 1;
   for (const SkinLight& light : skins_) probes += light.probes.vertices.size();
   const int few =
-      std::clamp(int(std::size_t(rays) * std::size_t(most_probes) / (kFewProbes * probes)), rays, kMostRays * rays);
+      std::clamp(int(std::size_t(rays) * std::size_t(max_probes) / (kFewProbes * probes)), rays, kMaxRays * rays);
   // A sphere of directions, half of which are above any surface.
   const std::vector<Vector3f> directions = even_directions(2 * few);
   for (std::size_t turn = 0; turn < kTurns; ++turn) {
@@ -183,7 +183,7 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
       const bool is_flipped =
           light.sides == Sides::kBoth ? normal.dot(eye - position) < 0 : light.sides == Sides::kBack;
       if (is_flipped) normal = -normal;
-      Place place{position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns};
+      ProbePoint place{position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns};
       light.of_probes[tasks[i].probe] = gather(place, ground);
       if (light.is_metal) light.through_to_probes[tasks[i].probe] = mirror(place, eye);
       if (!media_.is_entered(int(tasks[i].skin))) continue;
@@ -280,7 +280,7 @@ std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own, bool is
 }
 
 /// The rays measure the occluded fraction of the surrounding light: without occluders the result is exact.
-Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) const {
+Vector4f GatheredLight::gather(const ProbePoint& place, const GroundLight& ground) const {
   Ray ray;
   ray.origin = place.origin;
   const float height = std::max(ray.origin.y() - float(ground.height), 0.0F);
@@ -317,7 +317,7 @@ Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) co
 }
 
 /// Follows rays inwards: what arrives where they leave the body.
-Vector4f GatheredLight::come_through(const Place& place, const GroundLight& ground) const {
+Vector4f GatheredLight::come_through(const ProbePoint& place, const GroundLight& ground) const {
   const std::vector<Direction>& directions = directions_[place.turn];
   const std::size_t step = std::max(directions.size() / (2 * kInwardRays), std::size_t(1));
   const float attenuation = 0.5F * media_.scattering(int(place.skin));
@@ -346,7 +346,7 @@ Vector4f GatheredLight::come_through(const Place& place, const GroundLight& grou
 }
 
 /// Averages the directions of the place around the mirrored one, as a rough mirror does.
-Vector4f GatheredLight::mirror(const Place& place, const Vector3f& eye) const {
+Vector4f GatheredLight::mirror(const ProbePoint& place, const Vector3f& eye) const {
   const Vector3f from_eye = (place.origin - eye).normalized();
   const Vector3f mirrored = from_eye - 2 * from_eye.dot(place.normal) * place.normal;
   const std::vector<Direction>& directions = directions_[place.turn];

@@ -22,9 +22,9 @@ namespace sprung {
 /// flickers; results depend neither on the number of threads nor on earlier results.
 class GatheredLight {
  public:
-  /// `rays`: approximate number per probe, more if there are few probes. `most_probes`: of all skins. Throws
+  /// `rays`: approximate number per probe, more if there are few probes. `max_probes`: of all skins. Throws
   /// Error(kFailed) if this program was built without Embree.
-  GatheredLight(const Stage& stage, int rays, int most_probes);
+  GatheredLight(const Stage& stage, int rays, int max_probes);
 
   /// Gathers for all vertices of triangles that `eye` (stage space) may see; the light of others is meaningless.
   /// Results are kept as long as the shapes stay the same.
@@ -47,7 +47,7 @@ class GatheredLight {
     Eigen::Vector3f radiance;  // from there, if it meets nothing
   };
   /// The geometry of a probe.
-  struct Place {
+  struct ProbePoint {
     Eigen::Vector3f origin;  // of its rays, stage space
     Eigen::Vector3f normal;  // unit
     std::size_t skin;
@@ -77,10 +77,10 @@ class GatheredLight {
   void find_needed(SkinLight& light, const Skin& skin, const Eigen::Vector3f& eye) const;
   [[nodiscard]] bool is_inside(const Ray& ray, const RayHit& hit) const;
   [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own, bool is_outside) const;
-  [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector4f gather(const ProbePoint& place, const GroundLight& ground) const;
   [[nodiscard]] Eigen::Vector4f from_bodies(const Eigen::Vector3f& origin, int set) const;
-  [[nodiscard]] Eigen::Vector4f come_through(const Place& place, const GroundLight& ground) const;
-  [[nodiscard]] Eigen::Vector4f mirror(const Place& place, const Eigen::Vector3f& eye) const;
+  [[nodiscard]] Eigen::Vector4f come_through(const ProbePoint& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector4f mirror(const ProbePoint& place, const Eigen::Vector3f& eye) const;
   [[nodiscard]] Eigen::Vector3f from_key(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
   [[nodiscard]] Eigen::Vector3f light_at_exit(const Ray& inside, const RayHit& exit,
                                               const Eigen::Vector3f& from_floor) const;

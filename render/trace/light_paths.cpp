@@ -12,13 +12,13 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kMostBounces = 64;
+constexpr int kMaxBounces = 64;
 /// Least roughness with which a surface is seen via a matt one. Sharper reflections of the key light there, which are
 /// caustics, would be sampled too rarely: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic and
 /// Robust Light Transport" (2013).
 constexpr float kBlurred = 0.6F;
-constexpr int kSureBounces = 1;        // before Russian roulette may end a path
-constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the direction to the eye
+constexpr int kSureBounces = 1;      // before Russian roulette may end a path
+constexpr float kMinFacing = 1e-2F;  // cosine between a smooth normal and the direction to the eye
 
 Reflected times(const Reflected& reflected, const Vector3f& light) {
   return {reflected.base.cwiseProduct(light), reflected.specular.cwiseProduct(light)};
@@ -36,7 +36,7 @@ float balance(float density, float other) { return density / (density + other); 
 /// A smooth normal that the eye sees from above, however it grazes the surface.
 Vector3f facing(const Vector3f& normal, const Vector3f& to_eye) {
   const float cosine = normal.dot(to_eye);
-  return cosine >= kLeastFacing ? normal : (normal + (kLeastFacing - cosine) * to_eye).normalized();
+  return cosine >= kMinFacing ? normal : (normal + (kMinFacing - cosine) * to_eye).normalized();
 }
 
 Finishes blurred(Finishes finishes) {
@@ -124,11 +124,11 @@ Vector3f LightPaths::base_color(const Meeting& meeting) const {
 
 /// The fraction of light along a ray that is not occluded; it passes straight through translucent bodies.
 Vector3f LightPaths::reaching(Ray ray) const {
-  constexpr int kMostSkins = 32;
+  constexpr int kMaxSkins = 32;
   if (!is_blocked(ray)) return Vector3f::Ones();
   Vector3f share = Vector3f::Ones();
   Interior interior(media_);
-  for (int i = 0; media_.any() && i < kMostSkins; ++i) {
+  for (int i = 0; media_.any() && i < kMaxSkins; ++i) {
     const std::optional<SurfacePoint> met = skins_.first_hit(ray);
     if (!met) return share;
     if (!media_.is_entered(met->skin)) break;
@@ -240,7 +240,7 @@ Vector3f LightPaths::beyond(const Way& way) const {
 Vector3f LightPaths::arriving(Way way, Meeting meeting, Sampler& sampler) const {
   Vector3f light = Vector3f::Zero();
   Vector3f factor = Vector3f::Ones();
-  for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+  for (int bounce = 0; bounce < kMaxBounces; ++bounce) {
     if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(way));
     const Vector3f color = base_color(meeting);
     if (meeting.seen == Seen::kFloor && region_.weight_on_floor(meeting.point.position) == 0) {

@@ -46,10 +46,10 @@ double area(const Skin& skin) {
 
 }  // namespace
 
-LightProbes place_probes(const Skin& skin, double least_spacing) {
+LightProbes place_probes(const Skin& skin, double min_spacing) {
   const int count = int(skin.positions.rows());
   // Vertices that are further apart are all probes, and take their light from as many neighbours as others do.
-  const double spacing = std::max(least_spacing, std::sqrt(area(skin) / std::max(count, 1)));
+  const double spacing = std::max(min_spacing, std::sqrt(area(skin) / std::max(count, 1)));
   std::vector<std::pair<Cell, int>> keys;
   keys.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i) keys.emplace_back(cell_of(skin, i, spacing), side_of(skin, i));

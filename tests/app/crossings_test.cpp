@@ -78,13 +78,13 @@ TEST_F(CrossingsOfARun, AreToldWhileItRunsAndFromItsCache) {
 TEST_F(CrossingsOfARun, AreNotOfMeshesNorOfStatics) {
   const ProgramRun mesh = run("inspect needle.toml --crossings");
   EXPECT_EQ(mesh.exit_code, 2);
-  EXPECT_NE(mesh.err.find("--crossings is about a cache"), std::string::npos) << mesh.err;
+  EXPECT_NE(mesh.err.find("--crossings applies to a cache"), std::string::npos) << mesh.err;
   static_cast<void>(
       folder_.write("beam.toml",
                     "[solver]\nscheme = \"static\"\n[[body]]\nbox = [0.04, 0.01, 0.01]\nbrick_size = 0.01\n"
                     "material = \"silicone-a20\"\n[[body.pin]]\nbox = { min = [0, 0, 0], max = [0, 1, 1] }\n"));
   ASSERT_EQ(run("simulate beam.toml -o beam.h5").exit_code, 0);
-  EXPECT_NE(run("inspect beam.h5 --crossings").err.find("is about motions"), std::string::npos);
+  EXPECT_NE(run("inspect beam.h5 --crossings").err.find("applies to motions"), std::string::npos);
 }
 
 Simulation boxes(const std::string& contact, Film& film) {

@@ -277,7 +277,7 @@ TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {
   static_cast<void>(folder_.write("two.toml", two_bodies + "[solver]\nscheme = \"modes\"\n"));
   const ProgramRun modes = run("simulate two.toml -o out");
   EXPECT_EQ(modes.exit_code, 3);
-  EXPECT_NE(modes.err.find("modes are those of one body, the scene has 2"), std::string::npos) << modes.err;
+  EXPECT_NE(modes.err.find("modes are computed for one body; the scene has 2"), std::string::npos) << modes.err;
   static_cast<void>(folder_.write("ground.toml", kBeam + "[[obstacle]]\nplane = { y = 0 }\n"));
   const ProgramRun ground = run("simulate ground.toml -o out --scheme static");
   EXPECT_EQ(ground.exit_code, 3);

@@ -158,7 +158,7 @@ TEST_F(Export, ClearsWhatAKilledExportLeft) {
 TEST_F(Export, SaysWhatCannotBe) {
   EXPECT_NE(run("export scene.toml -o skin.obj").err.find("cannot hold 4 frames"), std::string::npos);
   EXPECT_NE(run("export scene.toml -o skin_{}.obk").err.find("no format"), std::string::npos);
-  EXPECT_NE(run("export scene.toml -o skin_{}.ply --quantize").err.find("is about an animated .glb"),
+  EXPECT_NE(run("export scene.toml -o skin_{}.ply --quantize").err.find("applies to an animated .glb"),
             std::string::npos);
   EXPECT_NE(run("export scene.toml -o film.glp").err.find("did you mean '.glb'?"), std::string::npos);
   static_cast<void>(folder_.write("skin_2.ply", ""));

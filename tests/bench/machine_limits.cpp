@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 
 namespace sprung {
 

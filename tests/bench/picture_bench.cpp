@@ -82,7 +82,7 @@ struct Subject {
   }
 };
 
-void print_passes(const std::vector<PassTime>& first, const std::vector<PassTime>& all, int pictures) {
+void print_passes(const std::vector<DrawTime>& first, const std::vector<DrawTime>& all, int pictures) {
   double wall = 0;
   double processor = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -132,10 +132,10 @@ void run(const std::filesystem::path& scene, int pictures) {
 
   Renderer renderer(subject.stage, options_of(subject.scene.render.quality));
   Image image = renderer.draw(subject.shapes, subject.camera);  // compiles the shaders
-  const std::vector<PassTime> first = renderer.pass_times();
+  const std::vector<DrawTime> first = renderer.draw_times();
   const std::array<std::vector<SkinShape>, 2> shapes{subject.shapes_of(0), subject.shapes_of(1)};
   for (int i = 0; i < pictures; ++i) image = renderer.draw(shapes[std::size_t(i) % 2], subject.camera);
-  print_passes(first, renderer.pass_times(), pictures);
+  print_passes(first, renderer.draw_times(), pictures);
 
   watch = Stopwatch();
   for (int i = 0; i < pictures; ++i) write_png(image, folder / "picture.png");

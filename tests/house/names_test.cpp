@@ -81,6 +81,13 @@ const std::vector<std::pair<std::string, std::string>> kWords{
     {"quick system", "default linear solver"},
     {"cut in halves|made again in halves", "retried with half the step"},
     {"clean boundary", "defective mesh"},
+    {"kMost[A-Z]\\w*|kLeast[A-Z]\\w*", "kMax, kMin"},
+    {"place_of", "position_of, slot_of, location_of"},
+    {"\\w*Mover", "stepper"},
+    {"nothing holds", "no support"},
+    {"know nothing of", "do not support"},
+    {"done again in", "repeated with"},
+    {"hold more of", "support more of"},
 };
 
 struct WordFound {

@@ -47,7 +47,7 @@ TEST(PictureLayers, AddUpToOneFromTheMostOpaqueOn) {
   ASSERT_EQ(faint.size(), kOpacities.size());
   double sum = 0;
   for (std::size_t i = 0; i < faint.size(); ++i) {
-    EXPECT_EQ(faint[i].least_opacity, float(kOpacities[kOpacities.size() - 1 - i]));
+    EXPECT_EQ(faint[i].min_opacity, float(kOpacities[kOpacities.size() - 1 - i]));
     sum += faint[i].weight;
   }
   EXPECT_NEAR(sum, 1, 1e-12);

@@ -73,11 +73,11 @@ TEST(Renderer, MeasuresItsPassesOnRequest) {
   const Camera camera = frame_bounds(stage.bounds, 16.0 / 9);
   Renderer silent(stage, kSmall);
   const Image picture = silent.draw(scene.shapes(), camera);
-  EXPECT_TRUE(silent.pass_times().empty());
+  EXPECT_TRUE(silent.draw_times().empty());
   Renderer measured(stage, {.width = 320, .height = 180, .samples = 4, .measure_passes = true});
   EXPECT_EQ(measured.draw(scene.shapes(), camera).pixels, picture.pixels);
-  EXPECT_GT(measured.pass_times().size(), 5U);
-  for (const PassTime& time : measured.pass_times()) EXPECT_GT(time.wall, 0) << time.pass;
+  EXPECT_GT(measured.draw_times().size(), 5U);
+  for (const DrawTime& time : measured.draw_times()) EXPECT_GT(time.wall, 0) << time.pass;
 }
 
 TEST(RendererChild, DISABLED_PrintsTheHash) { std::printf("hash=%lx\n", hash(draw_scene(ball_on_ground(), kSmall))); }

@@ -24,8 +24,8 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr double kPeriods = 8;  // after the fall
 constexpr double kFramesPerPeriod = 4;
-constexpr double kMostDepth = 0.02;  // of the size
-constexpr double kMostGain = 0.05;   // of the energy at the start
+constexpr double kMaxDepth = 0.02;  // of the size
+constexpr double kMaxGain = 0.05;   // of the energy at the start
 
 enum class Shape { kBricks, kBox, kTorus, kBear };
 constexpr std::array kShapeNames{"bricks", "box", "torus", "bear"};
@@ -73,11 +73,11 @@ double lowest_kept_point(const World& world) {
 
 }  // namespace
 
-Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double least_poisson) {
+Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson) {
   Dice dice(seed, index);
   const Material material{.name = "random",
                           .young = dice.log_between(1e3, 1e9),
-                          .poisson = dice.between(least_poisson, 0.49),
+                          .poisson = dice.between(min_poisson, 0.49),
                           .density = dice.log_between(100, 5000),
                           .damping = dice.whole(0, 3) == 0 ? 0 : dice.log_between(1e-3, 1),
                           .source = ""};
@@ -132,8 +132,8 @@ DropResult run_drop(Drop& drop) {
   result.is_crushed = is_crushed(body);
   result.smallest_volume = smallest_volume_ratio(body);
   if (result.inverted_bricks > 0) result.fault = fmt::format("{} inverted bricks at the end", result.inverted_bricks);
-  if (result.deepest > kMostDepth) result.fault += fmt::format("; {:.3g} of its size below the ground", result.deepest);
-  if (result.energy_gain > kMostGain) result.fault += fmt::format("; {:.3g} more energy", result.energy_gain);
+  if (result.deepest > kMaxDepth) result.fault += fmt::format("; {:.3g} of its size below the ground", result.deepest);
+  if (result.energy_gain > kMaxGain) result.fault += fmt::format("; {:.3g} more energy", result.energy_gain);
   return result;
 }
 

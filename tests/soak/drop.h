@@ -15,8 +15,8 @@ struct Drop {
   std::string description;
 };
 
-/// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `least_poisson` to 0.49.
-[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double least_poisson);
+/// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `min_poisson` to 0.49.
+[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson);
 
 /// The outcome of a drop.
 struct DropResult {

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestShared = 100'000;  // bytes of a shared mesh that is worth many mutations
-constexpr long kMostKilobytes = kSanitized ? LONG_MAX : 1'000'000;  // readers have no limit of memory under ASan
-constexpr double kMostSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
+constexpr long kMaxKilobytes = kSanitized ? LONG_MAX : 1'000'000;  // readers have no limit of memory under ASan
+constexpr double kMaxSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
 
 struct Options {
   std::uint32_t seed = 1;
@@ -111,9 +111,9 @@ class Soak {
     const auto start = std::chrono::steady_clock::now();
     const std::string outcome = read(file, fault);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (seconds > kMostSeconds) fault = fmt::format("took {:.1f} s", seconds);
+    if (seconds > kMaxSeconds) fault = fmt::format("took {:.1f} s", seconds);
     const long memory = std::max(peak_kilobytes(RUSAGE_SELF), peak_kilobytes(RUSAGE_CHILDREN));
-    if (memory > kMostKilobytes) fault = fmt::format("took {} MB", memory / 1000);
+    if (memory > kMaxKilobytes) fault = fmt::format("took {} MB", memory / 1000);
 
     ++outcomes_[outcome];
     seconds_ += seconds;

@@ -12,7 +12,7 @@ struct Options {
   std::uint32_t seed = 1;
   std::uint32_t first = 0;
   std::uint32_t drops = 100;
-  double least_poisson = -0.2;
+  double min_poisson = -0.2;
   std::string model = "calibrated";
   bool guard = false;
   bool verbose = false;
@@ -34,7 +34,7 @@ int soak(const Options& options) {
   int crushed = 0;
   for (std::uint32_t index = options.first; index < options.first + options.drops; ++index) {
     const auto start = std::chrono::steady_clock::now();
-    Drop drop = random_drop(options.seed, index, model_from_name(options.model), options.least_poisson);
+    Drop drop = random_drop(options.seed, index, model_from_name(options.model), options.min_poisson);
     drop.world.guards_crossings = options.guard;
     const DropResult result = run_drop(drop);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   app.add_option("--drops", options.drops, "how many");
   app.add_option("--seed", options.seed, "of the series");
   app.add_option("--first", options.first, "number of the first drop: to see one again, with --drops 1");
-  app.add_option("--least-poisson", options.least_poisson, "of the materials")->check(CLI::Range(-0.9, 0.49));
+  app.add_option("--least-poisson", options.min_poisson, "of the materials")->check(CLI::Range(-0.9, 0.49));
   app.add_option("--model", options.model, "of the bricks");
   app.add_flag("--guard", options.guard,
                "with the guard against crossings, as in scenes; what is drawn stays above ground");

@@ -107,8 +107,8 @@ struct Case {
   Scene scene;
 };
 
-constexpr int kMostDirect = 20000;  // bricks, up to which a direct solver checks the solution
-constexpr double kWrong = 1e-5;     // a direct solver's own rounding in slender bodies is a tenth of that
+constexpr int kMaxDirect = 20000;  // bricks, up to which a direct solver checks the solution
+constexpr double kWrong = 1e-5;    // a direct solver's own rounding in slender bodies is a tenth of that
 
 Case random_case(std::uint32_t seed, std::uint32_t index) {
   Dice dice(seed, index);
@@ -187,7 +187,7 @@ Result run(const Scene& scene) {
     const auto start = Clock::now();
     const Recording recording = simulate(simulation, scene, Observer());
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (scene.solver.scheme == Solver::kLinear && simulation.world.bodies.size() == 1 && result.bricks <= kMostDirect) {
+    if (scene.solver.scheme == Solver::kLinear && simulation.world.bodies.size() == 1 && result.bricks <= kMaxDirect) {
       const double wrong = error_of_displacements(simulation, scene);
       if (!(wrong < kWrong)) result.fault = fmt::format("displacements are wrong by {:.2g} of the largest", wrong);
     }

@@ -21,15 +21,15 @@ inline long peak_kilobytes() {
 /// A file that is not a mesh ends the program quickly, with little memory, exit code 3 and one line of file and reason.
 /// Sanitizers take time and memory of their own: these are not checked then.
 inline void expect_refusal(const TempFolder& folder, const std::string& file, const std::string& reason) {
-  constexpr double kMostSeconds = 5;
-  constexpr long kMostKilobytes = 500'000;
+  constexpr double kMaxSeconds = 5;
+  constexpr long kMaxKilobytes = 500'000;
   const auto start = std::chrono::steady_clock::now();
   const ProgramRun ended = run_program(folder, "simulate '" + file + "' -o out");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(ended.exit_code, 3) << ended.err;
   if (!test::kSanitized) {
-    EXPECT_LT(seconds, kMostSeconds);
-    EXPECT_LT(peak_kilobytes(), kMostKilobytes);
+    EXPECT_LT(seconds, kMaxSeconds);
+    EXPECT_LT(peak_kilobytes(), kMaxKilobytes);
   }
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
   EXPECT_NE(ended.err.find("sprung: error: " + file), std::string::npos) << ended.err;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/body/kernel/pack.h"
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 #include "core/body/kernel/tile_runs.h"
 #include "core/bricks/brick_topology.h"
 #include "core/law/brick_law.h"
@@ -26,13 +26,13 @@ enum PlaneArray : int {
 };
 static_assert(kInverseLength + 3 == kPlaneArrays);
 
-/// A plane of nodes relative to a place in it.
-struct Place {
+/// A plane of nodes relative to a slot in it.
+struct PlaneView {
   double* values;
 
   /// Hides that address from the compiler, which would otherwise keep a hundred addresses in registers instead of one
   /// and the offsets from it.
-  [[nodiscard]] [[gnu::always_inline]] Place seen_from(int index) const {
+  [[nodiscard]] [[gnu::always_inline]] PlaneView seen_from(int index) const {
     double* there = values + index;
     asm("" : "+r"(there));
     return {there};
@@ -56,13 +56,13 @@ using Energy = EnergyLanes;
 }
 
 /// All springs of one length at rest.
-struct Kind {
+struct SpringType {
   double rest;      // m
   double per_rest;  // 1/m
   double shortest;  // m^2, added to squared lengths: none is zero, and NaN stays NaN
   double lag;       // beta / rest, s/m
 
-  Kind(double rest_squared, double beta)
+  SpringType(double rest_squared, double beta)
       : rest(std::sqrt(rest_squared)), per_rest(1 / rest), shortest(kShortest * rest_squared), lag(beta * per_rest) {}
 
   static constexpr double kShortest = 1e-20;
@@ -84,7 +84,7 @@ struct SpringForce {
 
 /// `rate` returns the relative velocity of the ends, if it is needed.
 template <Part kPart, class Rate>
-[[gnu::always_inline]] inline SpringForce spring_force(const Kind& kind, const Pack3& d, const Rate& rate) {
+[[gnu::always_inline]] inline SpringForce spring_force(const SpringType& kind, const Pack3& d, const Rate& rate) {
   const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
   SpringForce result{kPart == Part::kDamping ? Pack(0.0) : 1.0 - kind.rest * inverse, {}};
@@ -99,8 +99,8 @@ enum class Shift { kNone, kTo, kFrom };
 /// The rows of a spring's two ends.
 template <Shift kShift>
 struct Ends {
-  Place from;
-  Place to;
+  PlaneView from;
+  PlaneView to;
 
   [[nodiscard]] [[gnu::always_inline]] Ends seen_from(int index) const {
     return {from.seen_from(index), to.seen_from(index)};
@@ -122,7 +122,7 @@ using EdgeEnds = Ends<kAxis == 0 ? Shift::kTo : Shift::kNone>;
 
 /// Stretch and inverse length of a pack of edges, stored at their first nodes.
 template <Part kPart, int kAxis>
-[[gnu::always_inline]] inline void measure_edges(const Kind& kind, const EdgeEnds<kAxis>& ends) {
+[[gnu::always_inline]] inline void measure_edges(const SpringType& kind, const EdgeEnds<kAxis>& ends) {
   const Pack3 d = ends.between(kPosition);
   const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
@@ -135,7 +135,8 @@ template <Part kPart, int kAxis>
 /// Applies the forces at both ends of the edges that begin at a pack of nodes, once all bricks have added their
 /// tensions.
 template <bool kUpward>
-[[gnu::always_inline]] inline void pull_edges(const Place& here, const Place& next_row, const Place& above) {
+[[gnu::always_inline]] inline void pull_edges(const PlaneView& here, const PlaneView& next_row,
+                                              const PlaneView& above) {
   const Pack3 position = here.three(kPosition);
   const auto force = [&](int axis, const Pack3& end) {
     Pack tension = load(here.at(kTensionLow + axis));
@@ -157,7 +158,7 @@ template <bool kUpward>
 
 /// One diagonal of a run of faces.
 template <Part kPart, Shift kShift>
-void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diagonals, const RunPart& part,
+void pull_diagonals(const SpringType& kind, double stiffness, const Ends<kShift>& diagonals, const RunPart& part,
                     const double* shares, Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
     const Ends<kShift> ends = diagonals.seen_from(part.run.index + i);
@@ -183,9 +184,9 @@ struct Layout {
 
 struct BrickSprings {
   BrickLaw law;
-  Kind face;
-  Kind inner;
-  Kind axis;             // four mean axes together
+  SpringType face;
+  SpringType inner;
+  SpringType axis;       // four mean axes together
   double per_volume;     // 1 / h^3
   double size_squared;   // h^2
   double axial_cross;    // over 16: mean and bending stretches and their shares are sums of four here
@@ -287,17 +288,17 @@ using Diagonals = std::array<Pack3, 4>;
 
 /// The four rows of nodes of a row of bricks: 0, +y, +z, +y+z.
 struct BrickRows {
-  std::array<Place, 4> rows;
+  std::array<PlaneView, 4> rows;
 
-  BrickRows(const Place& low, const Place& high, int pitch)
+  BrickRows(const PlaneView& low, const PlaneView& high, int pitch)
       : rows{low, {low.values + pitch}, high, {high.values + pitch}} {}
 
   [[nodiscard]] [[gnu::always_inline]] BrickRows seen_from(int index) const {
     BrickRows seen = *this;
-    for (Place& row : seen.rows) row = row.seen_from(index);
+    for (PlaneView& row : seen.rows) row = row.seen_from(index);
     return seen;
   }
-  [[nodiscard]] [[gnu::always_inline]] Place operator[](std::size_t row) const { return rows[row]; }
+  [[nodiscard]] [[gnu::always_inline]] PlaneView operator[](std::size_t row) const { return rows[row]; }
 };
 
 /// The forces of a pack of bricks on its corners, in an order that needs few registers: the force at a corner is added
@@ -307,7 +308,7 @@ class PackForces {
  public:
   [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int index,
                                     Energy& energy)
-      : springs_(springs), rows_(rows), share_(share), place_(index), energy_(energy) {}
+      : springs_(springs), rows_(rows), share_(share), index_(index), energy_(energy) {}
 
   /// Stiffnesses of the low faces in N/m.
   [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz) {
@@ -342,7 +343,7 @@ class PackForces {
   /// Adds to the sum at the node.
   [[gnu::always_inline]] void give(int corner) const {
     const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
-    const Place row = rows_[std::size_t(corner) >> 1];
+    const PlaneView row = rows_[std::size_t(corner) >> 1];
     row.set_three(array, row.three(array) + forces_[corner]);
   }
 
@@ -360,7 +361,7 @@ class PackForces {
     for (std::size_t edge = 0; edge < 12; ++edge) {
       const Pack tension = share_ * tensions[edge];
       if constexpr (kPart == Part::kEnergy) {
-        add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
+        add_energy(energy_, index_, 0.5 * springs_.size_squared * tension * stretches[edge]);
       } else {
         const std::size_t from = kEdges[edge].from;
         const int axis = int(edge / 4);
@@ -370,11 +371,11 @@ class PackForces {
   }
 
   /// Force of a spring without coupling, from its low end to its high one.
-  [[nodiscard]] [[gnu::always_inline]] Pack3 force_of(const Kind& kind, CornerPair pair, const Pack3& d,
+  [[nodiscard]] [[gnu::always_inline]] Pack3 force_of(const SpringType& kind, CornerPair pair, const Pack3& d,
                                                       const Pack& stiffness) const {
     const SpringForce result = spring_force<kPart>(kind, d, [&] { return between(pair, kVelocity); });
     if constexpr (kPart == Part::kEnergy) {
-      add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.strain * result.strain);
+      add_energy(energy_, index_, (0.5 * kind.rest * kind.rest) * stiffness * result.strain * result.strain);
     }
     return (stiffness * result.per_length) * d;
   }
@@ -410,7 +411,7 @@ class PackForces {
 
   /// The law's own spring of the three mean axes together.
   [[gnu::always_inline]] void pull_mean_axes(const Axes& axes, Diagonals& forces) const {
-    const Kind& kind = springs_.axis;
+    const SpringType& kind = springs_.axis;
     Pack stretch(kPart == Part::kDamping ? 0.0 : -3.0);
     // 1 / length, and what it adds to the stretch.
     const auto measure = [&](const Pack3& axis) {
@@ -430,7 +431,7 @@ class PackForces {
       stretch += kind.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
     }
     const Pack tension = share_ * springs_.law.axes * stretch;
-    if constexpr (kPart == Part::kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretch);
+    if constexpr (kPart == Part::kEnergy) add_energy(energy_, index_, 0.5 * springs_.size_squared * tension * stretch);
     // A quarter for each edge of an axis, and a quarter for the axes being four together.
     const Pack quarter = (0.0625 * kind.rest) * tension;
     add_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z}, forces);
@@ -447,13 +448,13 @@ class PackForces {
     const Pack active = simd::max(deficit, Pack(0.0));
     const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
     add_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)}, forces);
-    if constexpr (kPart == Part::kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);
+    if constexpr (kPart == Part::kEnergy) add_energy(energy_, index_, 0.5 * strength * active * active);
   }
 
   const BrickSprings& springs_;
   BrickRows rows_;
   Pack share_;
-  int place_;
+  int index_;
   Energy& energy_;
   std::array<Pack3, 8> forces_;  // at the corners
 };

@@ -1,4 +1,4 @@
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 
 namespace sprung {
 

@@ -5,7 +5,7 @@
 
 #include "core/body/kernel/brick_springs.h"
 #include "core/body/kernel/pack.h"
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 #include "core/body/kernel/tile_runs.h"
 #include "core/law/neo_hooke/volume_energy.h"
 
@@ -20,8 +20,8 @@ using TrilinearMap = std::array<Pack3, 8>;
   TrilinearMap in_plane;
 #pragma GCC unroll 2
   for (std::size_t z = 0; z < 2; ++z) {
-    const Place low = rows[2 * z];
-    const Place high = rows[2 * z + 1];
+    const PlaneView low = rows[2 * z];
+    const PlaneView high = rows[2 * z + 1];
     const Pack3 x0 = low.three(values);
     const Pack3 x1 = low.three(values, 1);
     const Pack3 x2 = high.three(values);
@@ -60,7 +60,7 @@ using TrilinearMap = std::array<Pack3, 8>;
     for (std::size_t high_y = 0; high_y < 2; ++high_y) {
       const Pack3 both = high_y == 0 ? all - y : all + y;
       const Pack3 way = high_y == 0 ? x - xy : x + xy;
-      const Place row = rows[2 * z + high_y];
+      const PlaneView row = rows[2 * z + high_y];
       row.set_three(kForceLow, row.three(kForceLow) + (both - way));
       row.set_three(kForceHigh, row.three(kForceHigh) + (both + way));
     }

@@ -4,11 +4,11 @@
 #include <cstddef>
 
 #include "core/body/kernel/pack.h"
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// A part of a run: its places begin .. end - 1, counted from the run's first.
+/// A part of a run: its slots begin .. end - 1, counted from the run's first.
 struct RunPart {
   const Run& run;
   int begin;
@@ -17,22 +17,22 @@ struct RunPart {
   [[nodiscard]] int index() const { return run.index + begin; }
   [[nodiscard]] int count() const { return end - begin; }
 
-  /// Calls visit(place) for each pack.
+  /// Calls visit(slot) for each pack.
   template <class Visit>
   void each_pack(const Visit& visit) const {
     for (int i = begin; i < end; i += kLanes) visit(run.index + i);
   }
 };
 
-/// Goes through the runs of one kind in a plane, up to one place after the other.
+/// Goes through the runs of one kind in a plane, up to one slot after the other.
 class RunCursor {
  public:
   RunCursor(const TileView& tile, int plane, RunKind kind)
       : run_(tile.runs + tile.first_run[plane * kRunKinds + kind]),
         last_(tile.runs + tile.first_run[plane * kRunKinds + kind + 1]),
-        unit_(kind < kPlaces ? 1 : kPackPadding) {}
+        unit_(kind < kSlots ? 1 : kPackPadding) {}
 
-  /// Calls visit(part) for all nodes, or packs, that begin before this place and were not visited yet.
+  /// Calls visit(part) for all nodes, or packs, that begin before this slot and were not visited yet.
   template <class Visit>
   void go_to(int index, const Visit& visit) {
     while (run_ != last_ && run_->index + done_ < index) {
@@ -48,8 +48,8 @@ class RunCursor {
  private:
   const Run* run_;
   const Run* last_;
-  int unit_;      // places
-  int done_ = 0;  // of the run's places
+  int unit_;      // slots
+  int done_ = 0;  // of the run's slots
 };
 
 /// Three components in arrays of their own.
@@ -88,12 +88,12 @@ inline void add_rates(double* __restrict values, const double* __restrict rates,
 }
 
 /// Finishes nodes once their forces are known.
-inline void finish_nodes(const PassInput& input, int node, int count, const Three<const double>& forces) {
+inline void finish_nodes(const KernelInput& input, int node, int count, const Three<const double>& forces) {
   const std::ptrdiff_t first = 3 * std::ptrdiff_t(node);
   const double* __restrict x = forces.x;
   const double* __restrict y = forces.y;
   const double* __restrict z = forces.z;
-  if (input.pass != Pass::kMove) {
+  if (input.task != KernelTask::kMove) {
     double* __restrict to = input.forces + first;
     for (int i = 0; i < count; ++i) {
       to[3 * i] = x[i];

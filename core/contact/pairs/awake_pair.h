@@ -45,7 +45,7 @@ struct AwakePair {
 
 /// The share of the gap by which two features may approach in a step, apart from a minimum in bricks.
 inline constexpr double kFreeShare = 0.8;
-inline constexpr double kLeastGap = 1e-5;
+inline constexpr double kMinGap = 1e-5;
 
 /// The gap, in bricks, left between guarded surfaces that rest on each other, so that most pairs sleep; and between
 /// edges, which act only where points do not.
@@ -60,7 +60,7 @@ inline constexpr double kSkipped = 0.45;
 /// How far (m) two features may approach before they must be checked: they may then cross in a step, or be within
 /// `reach` (m), where contacts begin to act. `brick` in m.
 [[nodiscard]] inline double distance_until_due(double gap, double reach, double brick) {
-  return std::min(kFreeShare * (gap - kLeastGap * brick), gap - reach);
+  return std::min(kFreeShare * (gap - kMinGap * brick), gap - reach);
 }
 
 }  // namespace sprung

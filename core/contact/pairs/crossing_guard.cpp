@@ -7,16 +7,16 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostLooks = 20;         // in a step, each after something deviated from the prediction
+constexpr int kMaxLooks = 20;          // in a step, each after something deviated from the prediction
 constexpr int kImpulseRounds = 12;     // of impulses between corners ...
 constexpr int kSlowRounds = 36;        // ... then, up to here, of nodes that are slowed down ...
-constexpr int kMostRounds = 400;       // ... and of nodes that move as one, more from round to round
+constexpr int kMaxRounds = 400;        // ... and of nodes that move as one, more from round to round
 constexpr double kShareOfEach = 0.45;  // of the allowed approach of two features, that each may use
 constexpr double kRounding = 1e-12;    // bricks by which features of nodes that move as one approach by rounding errors
 
 /// How far two features may approach in a step, m; below 0: they must separate.
 double allowed_approach(const AwakePair& pair, double brick) {
-  return pair.gap < 0 ? 0 : kFreeShare * (pair.gap - kLeastGap * brick);
+  return pair.gap < 0 ? 0 : kFreeShare * (pair.gap - kMinGap * brick);
 }
 
 /// What has crossed another surface is moved out by contact.
@@ -44,7 +44,7 @@ void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>
   do_pins_meet_ = false;
   Outcome outcome = Outcome::kChanged;
   int rounds = 0;
-  for (int look = 0; look < kMostLooks && outcome == Outcome::kChanged; ++look) {
+  for (int look = 0; look < kMaxLooks && outcome == Outcome::kChanged; ++look) {
     outcome = keep_apart(dt, rounds);
     if (outcome == Outcome::kChanged && !near_.recheck(world, dt)) outcome = Outcome::kUnchanged;
   }
@@ -75,7 +75,7 @@ bool CrossingGuard::find_met(double dt) {
     for (int corner = 0; corner < 4; ++corner) speeds[corner] = pair.normal.dot(near_.known_velocity(pair, corner));
     if (!may_meet(pair, speeds, dt)) continue;
     if (!can_be_moved(pair)) {
-      const double gap = std::max(pair.gap, kLeastGap * near_.brick());
+      const double gap = std::max(pair.gap, kMinGap * near_.brick());
       do_pins_meet_ = do_pins_meet_ || closing_speed(pair.pair, speeds) * dt > kFreeShare * gap;
       continue;
     }
@@ -96,7 +96,7 @@ CrossingGuard::Outcome CrossingGuard::keep_apart(double dt, int& rounds) {
   while (find_met(dt)) {
     has_changed = true;
     for (bool is_kept = false; !is_kept; ++round) {
-      if (round == kMostRounds) return Outcome::kFailed;
+      if (round == kMaxRounds) return Outcome::kFailed;
       is_kept = true;
       for (const std::size_t row : met_) {
         const AwakePair& pair = near_.awake()[row];

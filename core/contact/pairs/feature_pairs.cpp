@@ -80,7 +80,7 @@ AlignedBox FeaturePairs::find_boxes(SurfaceTree& tree, const std::vector<Feature
   AlignedBox all;
   for (int row = first; row < last; ++row) {
     AlignedBox& box = boxes_.emplace_back();
-    for (const int corner : features[row]) box.extend(tree.place_of(corner));
+    for (const int corner : features[row]) box.extend(tree.position_of(corner));
     all.extend(box);
   }
   return all;
@@ -96,7 +96,7 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
   if (first == last) return;
   const AlignedBox all = find_boxes(across, other.triangles, first, last);
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
-    const AlignedBox box(ours.place_of(point));
+    const AlignedBox box(ours.position_of(point));
     if (box.exteriorDistance(all) >= list.unlisted) continue;
     for (int t = first; t < last; ++t) {
       const double distance = box.exteriorDistance(boxes_[t - first]);
@@ -119,8 +119,8 @@ void FeaturePairs::list_edges(int edges_of, int others_of, NearList& list) {
   const AlignedBox all = find_boxes(across, other.edges, first, last);
   for (int edge = skin.first_edge[edges_of]; edge < skin.first_edge[edges_of + 1]; ++edge) {
     const auto& [a, b] = skin.edges[edge];
-    AlignedBox box(ours.place_of(a));
-    box.extend(ours.place_of(b));
+    AlignedBox box(ours.position_of(a));
+    box.extend(ours.position_of(b));
     if (box.exteriorDistance(all) >= list.unlisted) continue;
     for (int e = first; e < last; ++e) {
       const double distance = box.exteriorDistance(boxes_[e - first]);
@@ -135,7 +135,7 @@ void FeaturePairs::list_edges(int edges_of, int others_of, NearList& list) {
 
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
   std::array<Vec3, 4> x;
-  for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).place_of(pair.corners[i]);
+  for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).position_of(pair.corners[i]);
   const FeatureDistance found =
       pair.count == 1 ? point_to_triangle(x[0], x[1], x[2], x[3]) : edge_to_edge(x[0], x[1], x[2], x[3]);
   const double gap = found.apart.norm();
@@ -159,10 +159,10 @@ Vec3 FeaturePairs::facing_of(const AwakePair& pair) {
 
 Vec3 FeaturePairs::normal_of_touching(const AwakePair& pair) {
   const Vec3 facing = facing_of(pair);
-  const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
+  const auto position = [&](int i) { return tree(pair.pair.side(i)).position_of(pair.pair.corners[i]); };
   Vec3 across = Vec3::Zero();
   if (pair.pair.count == 1 && !is_beside(pair)) across = outward_normal(pair);
-  if (pair.pair.count == 2 && !is_at_end(pair)) across = (place(1) - place(0)).cross(place(3) - place(2));
+  if (pair.pair.count == 2 && !is_at_end(pair)) across = (position(1) - position(0)).cross(position(3) - position(2));
   if (across.isZero(0)) return facing.normalized();
   return (across.dot(facing) < 0 ? -1 : 1) * across.normalized();
 }
@@ -170,21 +170,21 @@ Vec3 FeaturePairs::normal_of_touching(const AwakePair& pair) {
 bool FeaturePairs::pierces(const AwakePair& edges, int edge) {
   const int other = 2 - edge;
   const auto& corners = edges.pair.corners;
-  const auto place = [&](int i) { return tree(edges.pair.side(i)).place_of(corners[i]); };
+  const auto position = [&](int i) { return tree(edges.pair.side(i)).position_of(corners[i]); };
   SurfaceTree& across = tree(edges.pair.side(other));
   const ContactSurface& skin = across.skin();
   for (const int third : skin.opposite[skin.row_of_edge(corners[other], corners[other + 1])]) {
     if (third < 0 || (is_self() && (third == corners[edge] || third == corners[edge + 1]))) continue;
-    const int crossing =
-        segment_crossing(place(edge), place(edge + 1), place(other), place(other + 1), across.place_of(third));
+    const int crossing = segment_crossing(position(edge), position(edge + 1), position(other), position(other + 1),
+                                          across.position_of(third));
     if (crossing != 0) return true;
   }
   return false;
 }
 
 Vec3 FeaturePairs::outward_normal(const AwakePair& pair) {
-  const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
-  return (place(2) - place(1)).cross(place(3) - place(1));
+  const auto position = [&](int i) { return tree(pair.pair.side(i)).position_of(pair.pair.corners[i]); };
+  return (position(2) - position(1)).cross(position(3) - position(1));
 }
 
 bool FeaturePairs::is_inside(const AwakePair& pair) {
@@ -193,9 +193,9 @@ bool FeaturePairs::is_inside(const AwakePair& pair) {
   Inside& inside = inside_[pair.pair.first][point];
   if (inside.look != look_) {
     SurfaceTree& ours = tree(pair.pair.first);
-    const Vec3& place = ours.place_of(point);
-    const int turns = is_self() ? ours.winding_number(place, ours.normal_of(point), point)
-                                : tree(1 - pair.pair.first).winding_number(place, kSkew);
+    const Vec3& position = ours.position_of(point);
+    const int turns = is_self() ? ours.winding_number(position, ours.normal_of(point), point)
+                                : tree(1 - pair.pair.first).winding_number(position, kSkew);
     inside = {look_, turns > 0};
   }
   return inside.value;
@@ -247,7 +247,7 @@ bool FeaturePairs::stays_apart(Sleeper& sleeper, double closer, double coming) {
   if (sleeper.normal.isZero(0) || !sleeper.impulse.isZero(0)) return false;
   const FeaturePair& pair = sleeper.pair;
   Eigen::Vector4d heights;
-  for (int i = 0; i < 4; ++i) heights[i] = sleeper.normal.dot(tree(pair.side(i)).place_of(pair.corners[i]));
+  for (int i = 0; i < 4; ++i) heights[i] = sleeper.normal.dot(tree(pair.side(i)).position_of(pair.corners[i]));
   const double reach = pair.count == 1 ? kGuardedGap : kGuardedEdges;
   const double way = distance_until_due(-closing_speed(pair, heights), reach * brick_, brick_);
   if (way > coming) {

@@ -12,11 +12,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostStepsAhead = 8;   // that are predicted ...
-constexpr double kWayAhead = 0.02;      // ... or fewer, in which nothing moves by more than so many bricks ...
-constexpr double kLeastStepsAhead = 2;  // ... this one and the next, whose contacts this prediction gives
-constexpr double kSlack = 0.004;        // bricks that nodes may deviate from where their velocities take them ...
-constexpr double kMoreSlack = 4;        // times as far, each time that a step is checked again
+constexpr double kMaxStepsAhead = 8;  // that are predicted ...
+constexpr double kWayAhead = 0.02;    // ... or fewer, in which nothing moves by more than so many bricks ...
+constexpr double kMinStepsAhead = 2;  // ... this one and the next, whose contacts this prediction gives
+constexpr double kSlack = 0.004;      // bricks that nodes may deviate from where their velocities take them ...
+constexpr double kMoreSlack = 4;      // times as far, each time that a step is checked again
 
 /// The bricks of bodies `a` and `b` that are glued together, each pair once.
 FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
@@ -145,7 +145,7 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
   double fastest = 0;
   for (const auto& tree : surfaces_.trees) fastest = std::max(fastest, tree->fastest());
   const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));
-  horizon_ = dt * std::clamp(steps, kLeastStepsAhead, kMostStepsAhead);
+  horizon_ = dt * std::clamp(steps, kMinStepsAhead, kMaxStepsAhead);
   slack_ = slack;
   since_look_ = 0;
   seen_.resize(surfaces_.trees.size());

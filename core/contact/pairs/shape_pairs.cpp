@@ -107,7 +107,7 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
   double first = std::numeric_limits<double>::infinity();
   for (int point = skin.first_point[brick]; point < skin.first_point[brick + 1]; ++point) {
     if (point_wakes_[point] <= way + coming) {
-      const Gap gap = signed_distance(obstacle.shape, pose, tree_.place_of(point));
+      const Gap gap = signed_distance(obstacle.shape, pose, tree_.position_of(point));
       const double due = distance_until_due(gap.distance, reach, brick_);
       const bool may_sleep = gap.distance > 0 && impulses_[point].isZero(0);
       const bool is_asleep = may_sleep && due > coming;
@@ -123,7 +123,7 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
 
 void ShapePairs::measure(const Obstacle& obstacle, const Pose& pose, std::vector<AwakePair>& awake) {
   for (const int point : awake_) {
-    const Vec3& position = tree_.place_of(point);
+    const Vec3& position = tree_.position_of(point);
     const Gap gap = signed_distance(obstacle.shape, pose, position);
     awake.push_back({.pair = {.count = 1, .corners = {point, -1, -1, -1}, .first = 0},
                      .bodies = {body_, AwakePair::kNoBody},

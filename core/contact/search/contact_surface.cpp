@@ -105,10 +105,10 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   std::iota(order.begin(), order.end(), 0);
   const auto brick_of = [&](int row) { return embedding.brick[row]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return brick_of(a) < brick_of(b); });
-  std::vector<int> place_of(order.size());
+  std::vector<int> point_of(order.size());
   std::vector<int> brick_of_point;
   for (const int row : order) {
-    place_of[row] = isize(points);
+    point_of[row] = isize(points);
     const auto weights = trilinear_weights(embedding.local.row(row));
     int corner = 0;
     weights.maxCoeff(&corner);
@@ -117,12 +117,12 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
     if (bricks.empty() || bricks.back() != brick_of(row)) bricks.push_back(brick_of(row));
   }
   first_point = starts_of(bricks, brick_of_point);
-  return place_of;
+  return point_of;
 }
 
-void ContactSurface::add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& place_of) {
+void ContactSurface::add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& point_of) {
   for (const auto& row : corners.rowwise()) {
-    triangles.push_back({place_of[row[0]], place_of[row[1]], place_of[row[2]]});
+    triangles.push_back({point_of[row[0]], point_of[row[1]], point_of[row[2]]});
   }
   const auto owner = [&](const std::array<int, 3>& triangle) { return points[triangle[0]].brick; };
   std::stable_sort(triangles.begin(), triangles.end(),

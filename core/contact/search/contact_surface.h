@@ -46,7 +46,7 @@ struct ContactSurface {
  private:
   /// Returns the index in points of each of the embedding's.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
-  void add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& place_of);
+  void add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& point_of);
   void add_edges();
 };
 

@@ -31,15 +31,15 @@ void FacingLists::list_side(std::size_t side, int points_of, int triangles_of, d
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
-    const Vec3& position = ours.place_of(point);
+    const Vec3& position = ours.position_of(point);
     const auto is_connected = [&](int corner) {
       return share_a_node(ours.body(), skin.points[point].brick, other.points[corner].brick);
     };
     for (int t = other.first_triangle[triangles_of]; t < other.first_triangle[triangles_of + 1]; ++t) {
       const std::array<int, 3>& triangle = other.triangles[t];
-      const Vec3& a = across.place_of(triangle[0]);
-      const Vec3& b = across.place_of(triangle[1]);
-      const Vec3& c = across.place_of(triangle[2]);
+      const Vec3& a = across.position_of(triangle[0]);
+      const Vec3& b = across.position_of(triangle[1]);
+      const Vec3& c = across.position_of(triangle[2]);
       if (((a.cwiseMin(b).cwiseMin(c) - position).array() > margin).any()) continue;
       if (((position - a.cwiseMax(b).cwiseMax(c)).array() > margin).any()) continue;
       const Vec3 area = (b - a).cross(c - a);

@@ -12,8 +12,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kLongestEdge = 4;   // bricks
-constexpr double kMostAcross = 128;  // bricks along the longest side of an obstacle
+constexpr double kLongestEdge = 4;  // bricks
+constexpr double kMaxAcross = 128;  // bricks along the longest side of an obstacle
 
 constexpr int kSides = 64;  // of the prism that stands for a cylinder
 
@@ -77,11 +77,11 @@ SoftBody obstacle_surface(const Obstacle& obstacle, double brick_size) {
   mesh.parts = {{.name = "", .first_triangle = 0, .triangle_count = int(mesh.triangles.rows())}};
   const Vec3 low = mesh.positions.colwise().minCoeff();
   const double extent = (mesh.positions.rowwise() - low.transpose()).maxCoeff();
-  const Skin skin = make_skin(mesh, {.max_edge = std::max(kLongestEdge * brick_size, extent / kMostAcross)});
+  const Skin skin = make_skin(mesh, {.max_edge = std::max(kLongestEdge * brick_size, extent / kMaxAcross)});
 
   SoftBody surface;
   BrickGrid& grid = surface.grid;
-  grid.brick_size = std::max(brick_size, extent / kMostAcross);
+  grid.brick_size = std::max(brick_size, extent / kMaxAcross);
   grid.origin = low;
   const std::vector<int> point_of = weld_points(skin.positions);
   const auto cell_of = [&](Eigen::Index row) -> Eigen::Vector3i {

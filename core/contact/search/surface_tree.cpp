@@ -235,11 +235,12 @@ const AlignedBox& SurfaceTree::box(int row) {
   AlignedBox now;
   if (node.is_leaf()) {
     const int brick = brick_of(node);
-    for (int i = skin_.first_point[brick]; i < skin_.first_point[brick + 1]; ++i) now.extend(place_of(i));
+    for (int i = skin_.first_point[brick]; i < skin_.first_point[brick + 1]; ++i) now.extend(position_of(i));
     for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
-      for (const int corner : skin_.triangles[i]) now.extend(place_of(corner));
+      for (const int corner : skin_.triangles[i]) now.extend(position_of(corner));
     }
-    for (int i = skin_.first_edge[brick]; i < skin_.first_edge[brick + 1]; ++i) now.extend(place_of(skin_.edges[i][1]));
+    for (int i = skin_.first_edge[brick]; i < skin_.first_edge[brick + 1]; ++i)
+      now.extend(position_of(skin_.edges[i][1]));
   } else {
     now = this->box(row + 1);
     now.extend(this->box(node.second_child));
@@ -265,7 +266,7 @@ int SurfaceTree::crossings(int row, const Vec3& start, const Vec3& end, int exce
   for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
     const auto& [a, b, c] = skin_.triangles[i];
     if (a == except || b == except || c == except) continue;
-    sum += segment_crossing(start, end, place_of(a), place_of(b), place_of(c));
+    sum += segment_crossing(start, end, position_of(a), position_of(b), position_of(c));
   }
   return sum;
 }
@@ -283,7 +284,7 @@ const NormalCone& SurfaceTree::cone(int row) {
     }
     for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
       const auto& [a, b, c] = skin_.triangles[i];
-      const Vec3 area = (place_of(b) - place_of(a)).cross(place_of(c) - place_of(a));
+      const Vec3 area = (position_of(b) - position_of(a)).cross(position_of(c) - position_of(a));
       least = std::min(least, area.norm() > 0 ? area.normalized().dot(cone.value.axis) : -1);
     }
     cone.value.spread = std::acos(std::clamp(least, -1.0, 1.0));

@@ -82,7 +82,7 @@ class SurfaceTree {
   /// The current cone of its points' and triangles' normals.
   [[nodiscard]] const NormalCone& cone(int node);
   /// The current position of a contact point, m, and the normal of the skin there, unit.
-  [[nodiscard]] const Vec3& place_of(int point) {
+  [[nodiscard]] const Vec3& position_of(int point) {
     if (places_[point].step != step_) find_place(point);
     return places_[point].value;
   }

@@ -6,7 +6,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostOfCell = 64;  // triangles
+constexpr int kMaxOfCell = 64;  // triangles
 
 std::array<double, 3> key_of(const Points& points, int row) { return {points(row, 0), points(row, 1), points(row, 2)}; }
 
@@ -103,7 +103,7 @@ void DrawnSurface::build(const Skin& skin, const std::vector<int>& owners) {
 }
 
 void DrawnSurface::add_cells(std::vector<int>& rows, int first, int last, const Points& middles) {
-  if (last - first <= kMostOfCell) {
+  if (last - first <= kMaxOfCell) {
     cells_.push_back({first, last});
     return;
   }
@@ -153,7 +153,7 @@ void DrawnSurface::move_to(const Points& vertices) {
   refit(boxes);
 }
 
-void DrawnSurface::place(const std::vector<int>& cells) {
+void DrawnSurface::place_vertices(const std::vector<int>& cells) {
   if (body_ == nullptr) return;
   const Embedding& embedding = body_->drawn.embedding;
   for (const int cell : cells) {
@@ -173,7 +173,7 @@ void DrawnSurface::complete() {
   if (winding_) return;
   std::vector<int> cells(cells_.size());
   std::iota(cells.begin(), cells.end(), 0);
-  place(cells);
+  place_vertices(cells);
   winding_ = std::make_unique<WindingTree>(points_, triangles_);
 }
 

@@ -41,7 +41,7 @@ class DrawnSurface {
   void move_to(const Points& vertices);
 
   /// Places the vertices of these cells.
-  void place(const std::vector<int>& cells);
+  void place_vertices(const std::vector<int>& cells);
   /// Places all vertices and makes winding() ready.
   void complete();
 

@@ -17,9 +17,9 @@ namespace sprung {
 namespace {
 
 constexpr double kFurthestMove = 0.25;  // of a brick, in a step
-constexpr int kMostHalvings = 4;
+constexpr int kMaxHalvings = 4;
 constexpr double kBrickStepsBetween = 2e6;
-constexpr double kMostSteps = 1e12;  // at a time: more than anyone would wait for
+constexpr double kMaxSteps = 1e12;  // at a time: more than anyone would wait for
 
 /// State that can be restored.
 struct State {
@@ -68,7 +68,7 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
 }
 
 /// "body 1, brick 12 at (0.1, 0.02, 0) m at rest".
-std::string place_of(const World& world, const Trouble& trouble) {
+std::string location_of(const World& world, const Trouble& trouble) {
   const Body& body = world.bodies[trouble.body];
   Vec3 middle = Vec3::Zero();
   for (const int node : body.grid.nodes[trouble.brick]) middle += body.rest_positions.row(node).transpose() / 8;
@@ -103,9 +103,9 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
     const double most = speed + carried + world.gravity.norm() * time;
     const bool can_meet = !world.obstacles.empty() || bodies.size() > 1;
     if (can_meet && most > 0) step = std::min(step, kFurthestMove * brick / most);
-    if (!(time / step <= kMostSteps)) {
+    if (!(time / step <= kMaxSteps)) {
       throw Diverged(bodies.front(),
-                     fmt::format("body {} moves at {:.3g} m/s, which takes more steps than can be done: "
+                     fmt::format("body {} moves at {:.3g} m/s, which would take too many time steps: "
                                  "the motion diverged; use slower bodies, larger bricks or less gravity",
                                  bodies.front() + 1, speed));
     }
@@ -169,16 +169,17 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
       move_obstacles(world_.obstacles, duration);
       return groups;
     }
-    const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", place_of(world_, *trouble), time,
-                                         time + duration, trouble->what);
+    const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", location_of(world_, *trouble),
+                                         time, time + duration, trouble->what);
     restore(start, world_);
     const double dt = step_of(groups, trouble->body);
-    if (halvings_ == kMostHalvings) {
-      throw Diverged(trouble->body, what + fmt::format(", with steps of {:.3g} s too: the motion diverged; {}", dt,
-                                                       advice_for_divergence(world_, trouble->body, trouble->brick)));
+    if (halvings_ == kMaxHalvings) {
+      throw Diverged(trouble->body,
+                     what + fmt::format(", even with a time step of {:.3g} s: the motion diverged; {}", dt,
+                                        advice_for_divergence(world_, trouble->body, trouble->brick)));
     }
     ++halvings_;
-    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));
+    tell(what + fmt::format("; the frame is repeated with half the time step, {:.3g} s", dt / 2));
   }
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kFastestRatio = 0.25;  // explicit damping ratio of the fastest vibration: steps a fifth shorter
 constexpr int kStepsBetween = 12;       // the slow vibrations left to it hardly move in this many
-constexpr int kMostIterations = 40;
+constexpr int kMaxIterations = 40;
 constexpr double kTolerance = 1e-2;  // of the damping that is due: the next solve corrects the rest
 
 Eigen::Map<Eigen::VectorXd> flat(Points& points) { return {points.data(), points.size()}; }
@@ -23,7 +23,7 @@ DampingShares damping_shares(const Body& body, double frequency_squared) {
   return shares;
 }
 
-void ImplicitDamping::pass(double dt) {
+void ImplicitDamping::apply(double dt) {
   if (beta_ == 0) return;
   due_ += dt;
   if (++passed_ == kStepsBetween) settle();
@@ -53,7 +53,7 @@ void ImplicitDamping::settle() {
   Eigen::VectorXd direction = preconditioned;
   double size = residual.dot(preconditioned);
   const double enough = kTolerance * kTolerance * size;
-  for (int i = 0; i < kMostIterations && size > enough && size > 0; ++i) {
+  for (int i = 0; i < kMaxIterations && size > enough && size > 0; ++i) {
     multiply(direction, product);
     product += masses.cwiseProduct(direction);
     const double length = size / direction.dot(product);

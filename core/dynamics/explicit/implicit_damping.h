@@ -27,7 +27,7 @@ class ImplicitDamping {
   ImplicitDamping(SoftBody& body, double beta) : body_(body), beta_(beta) {}
 
   /// Advances by a step (s); velocities are updated every few steps.
-  void pass(double dt);
+  void apply(double dt);
 
   /// Applies the damping that is still due.
   void settle();

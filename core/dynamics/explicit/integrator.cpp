@@ -87,9 +87,9 @@ double stable_step(const World& world, double safety) {
 namespace {
 
 /// One body during a number of steps.
-class Mover {
+class BodyStepper {
  public:
-  Mover(SoftBody& body, const World& world)
+  BodyStepper(SoftBody& body, const World& world)
       : body_(body),
         world_(world),
         inverse_masses_(body.masses.cwiseInverse()),
@@ -121,7 +121,7 @@ class Mover {
         if (pinned.axes[axis]) body.velocities(pinned.node, axis) = pinned.velocity[axis];
       }
     }
-    implicit_damping_.pass(dt);  // pinned nodes have their velocity and lead the rest
+    implicit_damping_.apply(dt);  // pinned nodes have their velocity and lead the rest
   }
 
   /// positions += dt velocities: deferred to the next kick, which loads them anyway.
@@ -159,15 +159,15 @@ Eigen::VectorXd inverse_masses_of(const SoftBody& body) {
 }
 
 /// Bodies that touch each other, during a number of steps.
-class GroupMover {
+class GroupStepper {
  public:
-  GroupMover(World& world, const GroupSteps& group, const ContactStates* states)
+  GroupStepper(World& world, const GroupSteps& group, const ContactStates* states)
       : world_(world), elapsed_(group.elapsed) {
     Group bodies;
     for (const std::size_t i : group.bodies) {
       bodies.push_back(&world.bodies[i]);
       inverse_masses_.push_back(inverse_masses_of(world.bodies[i]));
-      movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
+      steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world));
     }
     const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
     swept_ = contacts.swept;
@@ -176,7 +176,7 @@ class GroupMover {
   }
 
   void kick(double dt) {
-    each([&](Mover& mover) { mover.kick(dt); });
+    each([&](BodyStepper& stepper) { stepper.kick(dt); });
   }
 
   void apply_contact(double dt) {
@@ -189,27 +189,27 @@ class GroupMover {
   }
 
   void drift(double dt) {
-    for (const auto& mover : movers_) mover->drift(dt);
+    for (const auto& stepper : steppers_) stepper->drift(dt);
   }
 
   void finish() {
-    each([&](Mover& mover) { mover.finish(); });
+    each([&](BodyStepper& stepper) { stepper.finish(); });
   }
 
  private:
   template <class Visit>
   void each(const Visit& visit) {
-    if (movers_.size() == 1) {
-      visit(*movers_.front());
+    if (steppers_.size() == 1) {
+      visit(*steppers_.front());
       return;
     }
-    tbb::parallel_for(std::size_t{0}, movers_.size(),
-                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { visit(*movers_[i]); }); });
+    tbb::parallel_for(std::size_t{0}, steppers_.size(),
+                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { visit(*steppers_[i]); }); });
   }
 
   const World& world_;
   double elapsed_;
-  std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<std::unique_ptr<BodyStepper>> steppers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
   std::shared_ptr<SweptContacts> swept_;   // none: by impulses_
   std::optional<ContactSolver> impulses_;  // none: by swept_
@@ -225,22 +225,22 @@ void check_finite(const World& world, double time) {
 }
 
 /// v += dt a; x += dt v. First order, symplectic.
-void euler(GroupMover& mover, double dt, long steps) {
+void euler(GroupStepper& stepper, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
-    mover.kick(dt);
-    mover.apply_contact(dt);
-    mover.drift(dt);
+    stepper.kick(dt);
+    stepper.apply_contact(dt);
+    stepper.drift(dt);
   }
 }
 
 /// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
-void verlet(GroupMover& mover, double dt, long steps) {
+void verlet(GroupStepper& stepper, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
-    mover.kick(step == 0 ? dt / 2 : dt);
-    mover.apply_contact(dt);
-    mover.drift(dt);
+    stepper.kick(step == 0 ? dt / 2 : dt);
+    stepper.apply_contact(dt);
+    stepper.drift(dt);
   }
-  if (steps > 0) mover.kick(dt / 2);
+  if (steps > 0) stepper.kick(dt / 2);
 }
 
 }  // namespace
@@ -248,13 +248,13 @@ void verlet(GroupMover& mover, double dt, long steps) {
 void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
              const ContactStates* states) {
   const auto advance_group = [&](const GroupSteps& group) {
-    GroupMover mover(world, group, states);
+    GroupStepper stepper(world, group, states);
     if (scheme == Scheme::kVerlet) {
-      verlet(mover, group.steps.dt, group.steps.count);
+      verlet(stepper, group.steps.dt, group.steps.count);
     } else {
-      euler(mover, group.steps.dt, group.steps.count);
+      euler(stepper, group.steps.dt, group.steps.count);
     }
-    mover.finish();
+    stepper.finish();
   };
   // A thread that waits within one group's steps must not begin another group's: the first would stand still.
   tbb::parallel_for(std::size_t{0}, groups.size(),

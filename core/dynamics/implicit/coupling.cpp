@@ -5,7 +5,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostIterations = 300;
+constexpr int kMaxIterations = 300;
 constexpr double kFallbackTolerance =
     1e-2;  // of the forces, left over when the iterations run out: Newton's next step mends it
 
@@ -101,7 +101,7 @@ Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::ve
   Eigen::VectorXd free = forces;
   system.release_held(free);
   return conjugate_gradients(
-      free, {.tolerance = tolerance, .fallback_tolerance = kFallbackTolerance, .max_iterations = kMostIterations},
+      free, {.tolerance = tolerance, .fallback_tolerance = kFallbackTolerance, .max_iterations = kMaxIterations},
       [&](const auto& x, auto& product) { system.multiply(x, product); },
       [&](const auto& residual, auto& correction) { system.precondition(residual, correction); }, report);
 }

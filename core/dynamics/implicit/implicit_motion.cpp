@@ -32,7 +32,7 @@ ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options)
   if (!why_not.empty()) {
     throw Error(
         ErrorKind::kBadInput,
-        fmt::format("{}, which implicit steps know nothing of: use an explicit scheme, euler or verlet", why_not));
+        fmt::format("{}, which implicit steps do not support: use an explicit scheme, euler or verlet", why_not));
   }
   for (SoftBody& body : world.bodies) bodies_.push_back(std::make_unique<ImplicitBody>(body, world, options_));
 }
@@ -68,12 +68,11 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
     ++halvings_;
     stride /= 2;
     if (stride >= kShortestStride) continue;
-    throw Diverged(
-        group.rows.front(),
-        fmt::format(
-            "body {}: no step of {:.3g} s leads on from t = {:.6g} s: {}; {}", group.rows.front() + 1, stride * span.dt,
-            span.begin + span.elapsed + done * span.dt, trouble,
-            advice_for_divergence(world_, group.rows.front(), worst_brick_of(world_.bodies[group.rows.front()]))));
+    throw Diverged(group.rows.front(),
+                   fmt::format("body {}: a step of {:.3g} s fails too at t = {:.6g} s: {}; {}", group.rows.front() + 1,
+                               stride * span.dt, span.begin + span.elapsed + done * span.dt, trouble,
+                               advice_for_divergence(world_, group.rows.front(),
+                                                     worst_brick_of(world_.bodies[group.rows.front()]))));
   }
 }
 

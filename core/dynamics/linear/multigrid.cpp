@@ -32,9 +32,8 @@ int smoothing_steps(const Body& body) {
 }
 
 /// Thin parts can be factorized fast with many nodes, and need them; neither holds for thick ones.
-multigrid::LastLevel last_level(const Body& body, int most_nodes) {
-  return {.most_nodes = most_nodes,
-          .most_flops = std::max(kFactorFlops, kFactorFlopsPerBrick * body.grid.brick_count())};
+multigrid::LastLevel last_level(const Body& body, int max_nodes) {
+  return {.max_nodes = max_nodes, .max_flops = std::max(kFactorFlops, kFactorFlopsPerBrick * body.grid.brick_count())};
 }
 
 /// Splits a whole brick matrix into its anchored part and its pull, in one lane of a block.

@@ -181,7 +181,7 @@ double factorization_flops(const Layout& level) {
 }
 
 bool is_last(const Layout& level, const LastLevel& last) {
-  return level.node_count <= last.most_nodes && factorization_flops(level) <= last.most_flops;
+  return level.node_count <= last.max_nodes && factorization_flops(level) <= last.max_flops;
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ struct Layout {
 
 /// Which level is coarse enough to be the last: one within both limits.
 struct LastLevel {
-  int most_nodes = 0;
-  double most_flops = std::numeric_limits<double>::max();  // of its Cholesky factorization
+  int max_nodes = 0;
+  double max_flops = std::numeric_limits<double>::max();  // of its Cholesky factorization
 };
 
 /// The grid's own bricks, then ever coarser ones of two by two by two, down to `last` or to bricks that have nothing

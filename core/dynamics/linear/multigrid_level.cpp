@@ -272,7 +272,7 @@ namespace {
 
 /// The relative increase of the coarsest level's diagonal: the accuracy of single precision.
 constexpr double kRaise = 1e-7;
-constexpr double kMostRaise = 1e-4;  // if the rounding of soft bodies needs more
+constexpr double kMaxRaise = 1e-4;  // if the rounding of soft bodies needs more
 
 /// Of the residual: a coarse level reduced this far by the first step needs no second one.
 constexpr float kEnough = 0.25F;
@@ -327,7 +327,7 @@ bool Cycle::prepare(int steps, double fastest_of_brick) {
   if (succeeds_with(kRaise * diagonal)) return true;
   matrix.diagonal() = diagonal;
   const Eigen::VectorXd around = largest_around(matrix);
-  for (double raise = 10 * kRaise; raise <= kMostRaise; raise *= 10) {
+  for (double raise = 10 * kRaise; raise <= kMaxRaise; raise *= 10) {
     if (succeeds_with(raise * around)) return true;
   }
   return false;

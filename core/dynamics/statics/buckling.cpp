@@ -17,7 +17,7 @@ using Vector = Eigen::VectorXd;
 constexpr double kSolved = 1e-10;    // of a linear system
 constexpr double kConverged = 1e-6;  // of a factor
 constexpr int kMoreVectors = 12;     // of the search than factors
-constexpr int kMostRestarts = 60;
+constexpr int kMaxRestarts = 60;
 
 using CornerMatrix = Eigen::Matrix<double, 8, 8>;
 
@@ -148,7 +148,7 @@ using Search = Spectra::SymGEigsSolver<GeometricStiffness, Stiffness, Spectra::G
 bool is_pulled(GeometricStiffness& geometric, Stiffness& stiffness, int vectors) {
   Search search(geometric, stiffness, 1, vectors);
   search.init();
-  search.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kConverged);
+  search.compute(Spectra::SortRule::LargestMagn, kMaxRestarts, kConverged);
   return search.info() == Spectra::CompInfo::Successful && search.eigenvalues()[0] < 0;
 }
 
@@ -163,7 +163,7 @@ BucklingModes find_buckling(const Body& body, const Supports& supports, const St
   if (count < 1 || count >= vectors) throw Error(ErrorKind::kBadInput, "the body is too small for so many factors");
   Search search(geometric, stiffness, count, vectors);
   search.init();
-  search.compute(Spectra::SortRule::LargestAlge, kMostRestarts, kConverged);
+  search.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, kConverged);
   if (search.info() != Spectra::CompInfo::Successful) {
     if (is_pulled(geometric, stiffness, vectors)) return {};
     throw Error(ErrorKind::kFailed, "the search for the buckling load did not converge; use fewer bricks");

@@ -92,9 +92,10 @@ void throw_if_free(const Body& body, const Supports& supports, const std::string
   for (const SpringSupport& support : supports.springs) add_point_product(body, support.spring, motion, product);
   const double stiffness = motion.dot(product);
   if (stiffness > kNoResistance * largest_brick_stiffness(body)) return;
-  throw Error(ErrorKind::kBadInput, fmt::format("{}: the supports leave the body free to move; {}. Hold more of it, or "
-                                                "use more bricks where it hangs by less than a brick",
-                                                doing, description_of(body, motion)));
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: the supports leave the body free to move; {}. Support more of it, or "
+                          "use more bricks where its parts are joined by less than a brick",
+                          doing, description_of(body, motion)));
 }
 
 }  // namespace sprung

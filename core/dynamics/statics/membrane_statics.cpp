@@ -112,7 +112,8 @@ Points2 solve_linear(const Membrane& membrane, const Points2& loads) {
   release_supported(membrane, forces);
   const Eigen::VectorXd moved = displacement(membrane, forces, false);
   if (moved.size() == 0 || !(moved.lpNorm<Eigen::Infinity>() < kFreeMembrane * extent(membrane))) {
-    throw Error(ErrorKind::kBadInput, "the supports leave the membrane free to move under its loads: hold more of it");
+    throw Error(ErrorKind::kBadInput,
+                "the supports leave the membrane free to move under its loads: support more of it");
   }
   return Eigen::Map<const Points2>(moved.data(), membrane.node_count(), 2);
 }

@@ -26,7 +26,7 @@ constexpr double kNoFrequency = 1e-11;  // squared, over the fastest: rounding
 constexpr double kResidual = 1e-4;      // of the lowest eigenvalue, which bounds the error of each
 constexpr int kMoreToStart = 8;         // vectors than vibrations
 constexpr int kRoundsToStart = 2;       // of inverse iteration, about
-constexpr int kMostRounds = 200;        // of corrections
+constexpr int kMaxRounds = 200;         // of corrections
 constexpr int kRoundsToRestart = 2;     // of corrections; each keeps as many vectors more
 constexpr int kRigidMotions = 6;
 constexpr double kSpectralShift = 1e-3;  // relative to a wave's rate along a free body; makes its matrix definite
@@ -144,10 +144,11 @@ std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count, dou
   const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(small, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (!(lowest > nothing)) return std::nullopt;
   Davidson search(matrix, count, start);
-  search.compute_with_guess(guess, Spectra::SortRule::SmallestAlge, kMostRounds, kResidual * lowest);
+  search.compute_with_guess(guess, Spectra::SortRule::SmallestAlge, kMaxRounds, kResidual * lowest);
   if (search.info() == Spectra::CompInfo::Successful) return Eigenpairs{search.eigenvalues(), search.eigenvectors()};
-  throw Error(ErrorKind::kFailed,
-              fmt::format("the search for {} modes did not converge; hold more of the body or ask for fewer", count));
+  throw Error(
+      ErrorKind::kFailed,
+      fmt::format("the search for {} modes did not converge; support more of the body or ask for fewer", count));
 }
 
 /// The same, by the method that suits the size.
@@ -179,7 +180,7 @@ Modes natural_modes(const Body& body, const Supports& supports, int count, const
     matrix.emplace(body, supports, shift, between);
     found = find_pairs(*matrix, all, 0);
   }
-  if (!found) throw Error(ErrorKind::kFailed, "the body is nearly free to move: hold more of it");
+  if (!found) throw Error(ErrorKind::kFailed, "the body is nearly free to move: support more of it");
   Modes modes;
   while (modes.rigid < all && found->values[modes.rigid] - shift < kRigid * shift) ++modes.rigid;
   if (modes.rigid + count > all) {

@@ -308,7 +308,7 @@ Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const P
   throw_if_free(body, supports, "the loads have no equilibrium");
   throw Error(ErrorKind::kFailed,
               "the linear system could not be solved to the accuracy of its loads: the body is nearly free to move; "
-              "hold more of it, or use more bricks where it is thin");
+              "support more of it, or use more bricks where it is thin");
 }
 
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,

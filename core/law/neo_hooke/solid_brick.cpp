@@ -113,9 +113,9 @@ Vec3 warping_stiffness(const SolidMoments& moments) {
   return kWarping * Vec3(spread[1] * spread[2], spread[2] * spread[0], spread[0] * spread[1]);
 }
 
-SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness) {
+SolidMoments bounded_moments(const SolidMoments& moments, double min_thickness) {
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments.covariance);
-  const double least = least_thickness * least_thickness / 12;
+  const double least = min_thickness * min_thickness / 12;
   SolidMoments bounded = moments;
   if (axes.eigenvalues()[0] < least) {
     bounded.covariance =

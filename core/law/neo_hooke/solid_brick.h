@@ -77,7 +77,7 @@ class SolidBrick {
 /// The energy of warping, over half E V, is q_i^2 h^4 times this.
 [[nodiscard]] Vec3 warping_stiffness(const SolidMoments& moments);
 
-/// Moments admissible for the law: in no direction is the solid thinner than `least_thickness`, in brick lengths.
-[[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness = 0.02);
+/// Moments admissible for the law: in no direction is the solid thinner than `min_thickness`, in brick lengths.
+[[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double min_thickness = 0.02);
 
 }  // namespace sprung

@@ -157,7 +157,7 @@ class ObjReader {
     }
     soup_.corner_counts.push_back(int(count));
     soup_.polygon_parts.push_back(part());
-    places_.push_back({faces_, scanner_.line()});
+    locations_.push_back({faces_, scanner_.line()});
   }
 
   Corner take_corner(std::string_view word) {
@@ -215,13 +215,13 @@ class ObjReader {
     if (const auto text = find_text_(name)) {
       for (SurfaceMaterial& material : read_mtl(*text)) soup_.materials.push_back(std::move(material));
     } else {
-      soup_.notes.push_back(fmt::format("material file '{}' is not there; drawn without it", name));
+      soup_.notes.push_back(fmt::format("material file '{}' does not exist; drawn without it", name));
     }
   }
 
   void check_rows() const {
     auto corner = soup_.corners.begin();
-    for (std::size_t f = 0; f < places_.size(); ++f) {
+    for (std::size_t f = 0; f < locations_.size(); ++f) {
       for (int i = 0; i < soup_.corner_counts[f]; ++i, ++corner) {
         check_row(f, corner->position, std::ssize(soup_.positions), "vertex");
         check_row(f, corner->uv, std::ssize(soup_.uvs), "UV");
@@ -233,10 +233,10 @@ class ObjReader {
   void check_row(std::size_t f, int row, long rows, std::string_view thing) const {
     if (row < rows) return;
     throw Error(ErrorKind::kBadInput, fmt::format("{}:{}: face {} refers to {} {} of {} (index out of range)", name_,
-                                                  places_[f].line, places_[f].face, thing, row + 1L, rows));
+                                                  locations_[f].line, locations_[f].face, thing, row + 1L, rows));
   }
 
-  struct Place {
+  struct Location {
     long face;
     long line;
   };
@@ -245,7 +245,7 @@ class ObjReader {
   const std::string& name_;
   const FindText& find_text_;
   PolygonSoup soup_;
-  std::vector<Place> places_;  // of the polygons
+  std::vector<Location> locations_;  // of the polygons
   std::map<std::pair<std::string, std::string>, int> parts_;
   std::string group_;
   std::string material_;

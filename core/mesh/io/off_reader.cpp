@@ -54,8 +54,8 @@ Counts read_counts(TextScanner& scanner) {
   static_cast<void>(scanner.rest());  // the number of edges, which is unreliable
   // A vertex takes at least 6 bytes, a face 4: one-digit numbers and separators.
   const auto size = double(scanner.after().size());
-  const auto check = [&](double count, std::string_view things, double least_bytes) {
-    if (count * least_bytes <= size + least_bytes) return;
+  const auto check = [&](double count, std::string_view things, double min_bytes) {
+    if (count * min_bytes <= size + min_bytes) return;
     scanner.refuse(
         fmt::format("header declares {:.0f} {}, more than the file can hold ({:.0f} bytes)", count, things, size));
   };

@@ -152,7 +152,7 @@ void read_property(TextScanner& scanner, PlyHeader& header) {
 }
 
 /// The minimum size of an entry of the element, bytes.
-std::size_t least_bytes(const PlyElement& element, PlyFormat format) {
+std::size_t min_bytes(const PlyElement& element, PlyFormat format) {
   if (format == PlyFormat::kText) return 2 * element.properties.size();
   std::size_t bytes = 0;
   for (const PlyProperty& property : element.properties) {
@@ -163,7 +163,7 @@ std::size_t least_bytes(const PlyElement& element, PlyFormat format) {
 
 void check_counts(const PlyHeader& header, std::size_t body, const std::string& name) {
   for (const PlyElement& element : header.elements) {
-    const double least = double(std::max<std::size_t>(1, least_bytes(element, header.format)));
+    const double least = double(std::max<std::size_t>(1, min_bytes(element, header.format)));
     if (double(element.count) * least <= double(body) + 1) continue;
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: header declares {} of '{}', more than the file can hold ({} bytes after the header)",

@@ -60,7 +60,7 @@ class EarClipper {
   std::array<std::size_t, 3> cut() {
     std::size_t best = left_.size() - 1;
     double best_area = -1e300;
-    for (std::size_t i = 0; i < left_.size() && tests_ < kMostTests; ++i) {
+    for (std::size_t i = 0; i < left_.size() && tests_ < kMaxTests; ++i) {
       const auto [a, b, c] = corner(i);
       const double area = cross(flat_[a], flat_[b], flat_[c]);
       if (area > 0 && is_empty(i)) {
@@ -96,7 +96,7 @@ class EarClipper {
     return true;
   }
 
-  static constexpr long kMostTests = 100'000'000;  // half a second
+  static constexpr long kMaxTests = 100'000'000;  // half a second
 
   const std::vector<Plane2>& flat_;
   std::vector<std::size_t> left_;

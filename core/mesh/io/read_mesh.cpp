@@ -173,7 +173,7 @@ void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
     if (material.texture_name.empty() || !material.texture.empty()) continue;
     const auto file = find_companion(material.texture_name, mesh_file.parent_path());
     if (!file) {
-      mesh.notes.push_back(fmt::format("texture '{}' of material '{}' is not there; drawn without it",
+      mesh.notes.push_back(fmt::format("texture '{}' of material '{}' does not exist; drawn without it",
                                        material.texture_name, material.name));
     } else if (const auto bytes = read_up_to(kLargestTexture, *file); bytes && !bytes->empty()) {
       material.texture.resize(bytes->size());

@@ -117,12 +117,12 @@ class Reader {
   }
 
  private:
-  [[noreturn]] static void refuse() { throw Error(ErrorKind::kFailed, "the reader of meshes gave no whole mesh"); }
+  [[noreturn]] static void refuse() { throw Error(ErrorKind::kFailed, "the mesh reader returned an incomplete mesh"); }
 
-  std::size_t take_count(std::size_t least_size) {
+  std::size_t take_count(std::size_t min_size) {
     std::uint64_t count = 0;
     get(count);
-    if (count > left_.size() / least_size) refuse();
+    if (count > left_.size() / min_size) refuse();
     return count;
   }
 

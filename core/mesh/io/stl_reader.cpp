@@ -111,7 +111,7 @@ class TextReader {
     } else if (is_keyword(word, "end")) {  // some write it apart
       const std::string_view what = scanner_.word();
       const bool is_known = is_keyword(what, "facet") || is_keyword(what, "solid") || is_keyword(what, "loop");
-      if (!is_known) scanner_.refuse(fmt::format("facet {} is followed by an 'end' of nothing", facet_));
+      if (!is_known) scanner_.refuse(fmt::format("facet {} is followed by an 'end' without a keyword", facet_));
       take("end" + std::string(what));
     } else if (is_keyword(word, "endfacet")) {
       end_facet();

@@ -121,7 +121,7 @@ long TextScanner::integer_ahead(const Named& what) {
   constexpr double kMost = 0x1p53;
   const double value = number_ahead(what);
   if (!(std::abs(value) <= kMost) || value != std::floor(value)) {
-    refuse(fmt::format("{} holds {}, where a whole number must be", what.text(), value));
+    refuse(fmt::format("{} holds {}, which is not a whole number", what.text(), value));
   }
   return long(value);
 }

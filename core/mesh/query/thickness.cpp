@@ -8,7 +8,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostCells = 64;  // along the longest side
+constexpr double kMaxCells = 64;  // along the longest side
 constexpr double kFewestCells = 4;
 constexpr double kInside = 1e-7;  // cells: depth at which a ray starts, to clear the triangles around it
 
@@ -51,7 +51,7 @@ std::vector<WallSample> sample_thickness(const Solid& solid, int count) {
   const std::vector<double> areas = running_areas(solid);
   const Vec3 low = solid.points.colwise().minCoeff();
   const Vec3 extent = solid.points.colwise().maxCoeff().transpose() - low;
-  const double along = std::clamp(std::sqrt(double(solid.triangles.rows()) / 4), kFewestCells, kMostCells);
+  const double along = std::clamp(std::sqrt(double(solid.triangles.rows()) / 4), kFewestCells, kMaxCells);
   const double cell = extent.maxCoeff() / along;
   const Eigen::Vector3i counts = (extent / cell).array().ceil().max(1).cast<int>();
   const Points points = (solid.points.rowwise() - low.transpose()) / cell;

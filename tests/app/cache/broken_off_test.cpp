@@ -100,13 +100,13 @@ TEST_F(BrokenOff, AFilmKeepsItsMotionUntilItIsWhole) {
   const ProgramRun broken = run_program(folder_, words + "--keep-after 0s --overwrite",
                                         "env PATH=" + (folder_.path() / "bin").string() + ":$PATH");
   EXPECT_EQ(broken.exit_code, 1) << broken.err;
-  EXPECT_NE(broken.err.find("24 frames, is kept in film.unfinished.h5; the same command goes on with it"),
+  EXPECT_NE(broken.err.find("24 frames, is kept in film.unfinished.h5; the same command resumes from it"),
             std::string::npos)
       << broken.err;
   EXPECT_EQ(CacheReader(motion).frame_count(), 24U);
   const ProgramRun whole = run_program(folder_, words + "--keep-after 0s --overwrite");
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
-  EXPECT_NE(whole.err.find("goes on with the motion in film.unfinished.h5"), std::string::npos) << whole.err;
+  EXPECT_NE(whole.err.find("resuming from the motion in film.unfinished.h5"), std::string::npos) << whole.err;
   EXPECT_NE(whole.err.find("24 frames, 0 of them in this run"), std::string::npos) << whole.err;
   EXPECT_FALSE(fs::exists(motion));
   EXPECT_EQ(text_of(folder_.path() / "film.mp4"), straight);

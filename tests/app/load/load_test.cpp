@@ -243,8 +243,8 @@ TEST_F(Load, MistakesAreNamedWithTheirRemedy) {
   };
   const std::string fix = "--fix x-low ";
   for (const auto& [words, expected] : std::vector<std::pair<std::string, std::string>>{
-           {"--load x-high:1N", "nothing holds the part: --fix WHERE"},
-           {fix, "nothing loads the part"},
+           {"--load x-high:1N", "the part has no support: --fix WHERE"},
+           {fix, "the part has no load"},
            {"--fix x-lo --load x-high:1N", "did you mean 'x-low'"},
            {fix + "--load x-high:5", "write WHERE:50N"},
            {fix + "--load x-high:5furlong", "write WHERE:50N"},
@@ -254,7 +254,7 @@ TEST_F(Load, MistakesAreNamedWithTheirRemedy) {
            {fix + "--load box=1,2,3:1N", "write box=X,Y,Z,X,Y,Z"},
            {"--fix box=200,0,0,300,1,1 --load x-high:1N", "has nothing of its surface there"},
            {fix + "--load face=500,0,0:1N", "away from bar.obj"},
-           {fix + "--load x-high:0N", "a load of nothing"},
+           {fix + "--load x-high:0N", "the load is zero"},
            {fix + "--load x-high:1N --material auto", "name the material"},
            {fix + "--load x-high:1N -o x.png", "give a folder"},
            {fix + "--load x-high:1N --unit parsec", "no unit of length"},

@@ -101,7 +101,7 @@ TEST_P(SkinContactBy, StackComesToRest) {
 /// The arms stop each other.
 TEST_P(SkinContactBy, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
-  const auto least_gap = [&](bool collides_with_itself) {
+  const auto min_gap = [&](bool collides_with_itself) {
     World world;
     world.gravity.setZero();
     world.bodies.push_back(closing_horseshoe(h));
@@ -113,8 +113,8 @@ TEST_P(SkinContactBy, BodyDoesNotGoThroughItself) {
     }
     return least;
   };
-  EXPECT_LT(least_gap(false), -0.2 * h);
-  EXPECT_GT(least_gap(true), -0.05 * h);
+  EXPECT_LT(min_gap(false), -0.2 * h);
+  EXPECT_GT(min_gap(true), -0.05 * h);
 }
 
 /// Contacts found in a frame do not depend on earlier frames: a motion can be resumed where it was left. Between two

@@ -87,7 +87,7 @@ TEST(ImplicitDamping, HeldNodesLead) {
   }
   ImplicitDamping damping(body, body.damping.beta);
   const double before = body.velocities.col(0).sum();
-  damping.pass(1e-3);
+  damping.apply(1e-3);
   damping.settle();
   EXPECT_GT(body.velocities.col(0).sum(), before);
   for (const KinematicNode& pinned : body.pinned) EXPECT_EQ(body.velocities(pinned.node, 0), 0.01);

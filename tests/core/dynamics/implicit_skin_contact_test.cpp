@@ -107,7 +107,7 @@ TEST(ImplicitTouch, FastPlatesMeetInLongSteps) {
 /// The arms of a horseshoe stop each other.
 TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
-  const auto least_gap = [&](bool collides_with_itself) {
+  const auto min_gap = [&](bool collides_with_itself) {
     World world;
     world.gravity.setZero();
     world.bodies.push_back(test::closing_horseshoe(h));
@@ -120,8 +120,8 @@ TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
     }
     return least;
   };
-  EXPECT_LT(least_gap(false), -0.2 * h);
-  EXPECT_GT(least_gap(true), -0.1 * h);
+  EXPECT_LT(min_gap(false), -0.2 * h);
+  EXPECT_GT(min_gap(true), -0.1 * h);
 }
 
 double furthest_apart(const World& world) {

@@ -275,7 +275,7 @@ Eigen::MatrixXd whole(const multigrid::Level& level) {
 /// The coarse bricks' sum is P^T A P, P by the nodes' places.
 TEST(MultigridLevel, CoarseBricksAreGalerkins) {
   const BrickGrid grid = bracket(6);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 20});
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.max_nodes = 20});
   ASSERT_GE(layouts.size(), 2U);
   multigrid::Level fine(layouts[0]);
   multigrid::Level coarse(layouts[1]);
@@ -288,7 +288,7 @@ TEST(MultigridLevel, CoarseBricksAreGalerkins) {
 
 TEST(MultigridLevel, MultipliesLikeItsDenseMatrix) {
   const BrickGrid grid = bracket(6);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 20});
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.max_nodes = 20});
   multigrid::Level level(layouts[0]);
   fill_at_random(level, grid.brick_count());
   level.prepare_smoother(1);
@@ -313,7 +313,7 @@ TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
   }
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 1});
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.max_nodes = 1});
   int tips = 0;  // coarse bricks at the top: one for each of the eight teeth
   for (const Eigen::Vector3i& cell : layouts[1].cells) tips += cell.y() == 3 ? 1 : 0;
   EXPECT_EQ(tips, 8);
@@ -324,7 +324,7 @@ TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
 }
 
 TEST(MultigridHierarchy, CoarsensSolidPartsFurtherThanThinOnes) {
-  const multigrid::LastLevel last{.most_nodes = 2000, .most_flops = 1e7};
+  const multigrid::LastLevel last{.max_nodes = 2000, .max_flops = 1e7};
   EXPECT_EQ(multigrid::make_hierarchy(make_box_grid({400, 1, 1}, 0.01), last).size(), 1U);   // 1604 nodes
   EXPECT_GT(multigrid::make_hierarchy(make_box_grid({11, 11, 11}, 0.01), last).size(), 1U);  // 1728
 }

@@ -100,7 +100,7 @@ SurfaceMesh shifted_copy() {
 struct Damage {
   const char* name;
   std::function<SurfaceMesh()> make;
-  int most_wrong;  // of 20 700 cells; a fifth more than was measured, or a few
+  int max_wrong;  // of 20 700 cells; a fifth more than was measured, or a few
 };
 
 void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
@@ -110,7 +110,7 @@ class Damaged : public ::testing::TestWithParam<Damage> {};
 TEST_P(Damaged, HasAlmostTheSameCells) {
   const int wrong = wrong_cells(GetParam().make(), torus());
   std::printf("%s: %d cells wrong\n", GetParam().name, wrong);
-  EXPECT_LE(wrong, GetParam().most_wrong);
+  EXPECT_LE(wrong, GetParam().max_wrong);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mesh, Damaged,

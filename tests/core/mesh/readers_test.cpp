@@ -113,8 +113,7 @@ TEST(ReadOff, NamesLineAndCause) {
   expect_refusal(kOff, "OFF\n9 99 0\n0 0 0\n", "a.off:2: header declares 9 vertices, more than the file can hold");
   expect_refusal(kOff, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0", "the file ends before face 1: it is cut short");
   expect_refusal(kOff, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1", "the file ends before face 1: it is cut short");
-  expect_refusal(kOff, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n",
-                 "face 1 holds 2.5, where a whole number must be");
+  expect_refusal(kOff, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", "face 1 holds 2.5, which is not a whole number");
   expect_refusal(kOff, "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no faces (a point cloud); it holds 3 points");
 }
 
@@ -192,9 +191,9 @@ TEST(ReadStl, TakesTextInDoublePrecisionAndAPartForEachSolid) {
   expect_refusal(kStl, "solid one\n" + facet("vertex 0 0 0\n"), "facet 1 has less than 3 vertices");
   expect_refusal(kStl, "solid one\nendsolid\n", "no faces");
   expect_refusal(kStl, "hello", "is not an STL file");
-  expect_refusal(kStl, "solid one\n" + facet(corners) + "end\n", "facet 1 is followed by an 'end' of nothing");
+  expect_refusal(kStl, "solid one\n" + facet(corners) + "end\n", "facet 1 is followed by an 'end' without a keyword");
   expect_refusal(kStl, "solid one\n" + facet(corners) + "end end end end",
-                 "facet 1 is followed by an 'end' of nothing");
+                 "facet 1 is followed by an 'end' without a keyword");
 }
 
 /// As written by programs that do not follow the format to the letter.

@@ -18,7 +18,7 @@ using Eigen::Vector4f;
 
 const Vector3f kEye(0, 0, 20);  // stage space
 constexpr int kRaysOfProbe = 64;
-constexpr int kMostProbes = 20000;
+constexpr int kMaxProbes = 20000;
 
 /// A square with two triangles for each of side x side parts, at a height, that looks up or down.
 Skin plate(double half, double height, int side, bool looks_up) {
@@ -52,7 +52,7 @@ GroundLight open_ground(const Stage& stage) {
 class Gathering {
  public:
   explicit Gathering(const StillLife& scene)
-      : stage_(scene.stage()), shapes_(scene.shapes()), light_(stage_, kRaysOfProbe, kMostProbes) {}
+      : stage_(scene.stage()), shapes_(scene.shapes()), light_(stage_, kRaysOfProbe, kMaxProbes) {}
 
   /// Light and openness at a vertex.
   Vector4f at(std::size_t skin, int vertex, const Vector3f& eye = kEye) {
@@ -139,7 +139,7 @@ TEST(GatheredLight, OntoTheGroundComesNothingWithoutBodies) {
   StillLife scene;
   scene.add(make_sphere_skin({0, 300, 0}, 0.1), kRed);
   const GroundLight below{-1e4, {-1, -1}, {2, 2}, 2, std::vector(4, Vector3f::Ones().eval())};
-  GatheredLight light(scene.stage(), kRaysOfProbe, kMostProbes);
+  GatheredLight light(scene.stage(), kRaysOfProbe, kMaxProbes);
   light.update(scene.shapes(), kEye, below);
   for (const Vector4f& texel : light.onto_ground(below).texels) EXPECT_TRUE(texel.isZero(0));
 }
@@ -180,7 +180,7 @@ TEST(GatheredLight, ComesThroughALayerAsFarAsItScatters) {
   scene.add(refined(make_box_skin({-5, 2, -5}, {5, 2.1, 5}), 0.5), kCream);
   Stage stage = scene.stage();
   stage.mean_free_paths = {0.1};
-  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  GatheredLight gathered(stage, kRaysOfProbe, kMaxProbes);
   gathered.update(scene.shapes(), {0, 20, 5}, open_ground(stage));
   ASSERT_TRUE(gathered.has_through());
   double expected = 0;
@@ -201,11 +201,11 @@ TEST(GatheredLight, ComesThroughALayerAsFarAsItScatters) {
 TEST(GatheredLight, DoesNotComeThroughOtherBodies) {
   StillLife scene;
   scene.add(make_sphere_skin({0, 1, 0}, 0.2), kCream);
-  EXPECT_FALSE(GatheredLight(scene.stage(), kRaysOfProbe, kMostProbes).has_through());
+  EXPECT_FALSE(GatheredLight(scene.stage(), kRaysOfProbe, kMaxProbes).has_through());
   scene.add(make_sphere_skin({1, 1, 0}, 0.2), kCream);
   Stage stage = scene.stage();
   stage.mean_free_paths = {0, 0.1};
-  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  GatheredLight gathered(stage, kRaysOfProbe, kMaxProbes);
   gathered.update(scene.shapes(), kEye, open_ground(stage));
   EXPECT_TRUE(gathered.through_to_vertices(0).isZero(0));
   EXPECT_FALSE(gathered.through_to_vertices(1).isZero(0));
@@ -217,7 +217,7 @@ TEST(GatheredLight, OfAMetalHasItsMirroredNeighbours) {
   scene.add(make_box_skin({1, 0, -2}, {1.1, 3, 2}), kRed);  // a wall on the right
   Stage stage = scene.stage();
   stage.looks = {Look::kSteel, Look::kPlastic};
-  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  GatheredLight gathered(stage, kRaysOfProbe, kMaxProbes);
   gathered.update(scene.shapes(), kEye, open_ground(stage));
   ASSERT_TRUE(gathered.has_through());
   const auto mirrored = [&](const Vec3& normal) -> Vector4f {

@@ -86,7 +86,7 @@ class FeatureRace {
       if (corner < pair.count) least = std::min(least, speed);
       if (corner >= pair.count) most = std::max(most, speed);
     }
-    return (most - least) * dt_ > kFreeShare * (gap - kLeastGap * bodies_[0]->grid.brick_size);
+    return (most - least) * dt_ > kFreeShare * (gap - kMinGap * bodies_[0]->grid.brick_size);
   }
   /// Pairs that have already crossed when they are checked are ignored: an edge that passes through a triangle at the
   /// other, and a point behind the triangle and inside its surface.

@@ -49,7 +49,7 @@ long missed_points(Obstacle obstacle, unsigned seed, long& near) {
         const Vec3 velocity = carried(body, tree.skin().points[point], body.velocities);
         const Gap gap = signed_distance(obstacle.shape, pose, position);
         const double closing = gap.normal.dot(velocity_at(obstacle, pose, position) - velocity);
-        if (gap.distance > 0.01 || closing * kStep <= kFreeShare * (gap.distance - kLeastGap * 0.02)) continue;
+        if (gap.distance > 0.01 || closing * kStep <= kFreeShare * (gap.distance - kMinGap * 0.02)) continue;
         ++near;
         if (!points.contains(point)) ++missed;
       }

@@ -33,7 +33,7 @@ Windings windings_of(SoftBody& body) {
   const Vec3 skew(0.3713, 0.4832, 0.7931);
   int inside = 0;
   for (int point = 0; point < isize(tree.skin().points); ++point) {
-    inside += tree.winding_number(tree.place_of(point), tree.normal_of(point), point) > 0 ? 1 : 0;
+    inside += tree.winding_number(tree.position_of(point), tree.normal_of(point), point) > 0 ? 1 : 0;
   }
   return {tree.winding_number(Vec3(0.031, 0.042, 0.029), skew), tree.winding_number(Vec3(0.031, 0.09, 0.029), skew),
           inside};

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Places side by side in a plane of a tile.
+/// Slots side by side in a plane of a tile.
 struct Run {
   int index;  // of the first
   int count;
@@ -15,12 +15,12 @@ struct Run {
 };
 
 /// The kinds of runs of a plane of nodes. All but those of nodes are a multiple of kPackPadding long and may include
-/// places that are not theirs.
+/// slots that are not theirs.
 enum RunKind : int {
   kNodes,        // all
   kOwnNodes,     // no other tile contributes to them
   kSharedNodes,  // other tiles do
-  kPlaces,       // all that hold nodes
+  kSlots,        // all that hold nodes
   kBricks,       // between this plane and the next
   kXyFaces,      // those that are no brick's low face: the body ends there
   kZxFaces,
@@ -32,12 +32,12 @@ enum RunKind : int {
 inline constexpr int kPackPadding = 8;
 
 /// A box of lattice cells with some of a body's bricks; each brick is in one tile. Its planes of nodes are stored row
-/// by row along x with `pitch` places per row, so the neighbours of a place in x, y and z are place + 1, place + pitch
+/// by row along x with `pitch` slots per row, so the neighbours of a slot in x, y and z are slot + 1, slot + pitch
 /// and the same one in the next plane, and runs continue from row to row. Plain arrays, for code that is compiled once
 /// for each instruction set.
 ///
-/// `shares`: the stiffness of a run's bricks or faces in multiples of a full brick's, 0 at places without one. Those of
-/// bricks are stored in packs of kPackPadding places: for springs their own shares, then those of their low xy, zx and
+/// `shares`: the stiffness of a run's bricks or faces in multiples of a full brick's, 0 at slots without one. Those of
+/// bricks are stored in packs of kPackPadding slots: for springs their own shares, then those of their low xy, zx and
 /// yz faces, the sum over a face's two bricks; for solid bricks see SolidNumber. `packs` holds the offset of each pack;
 /// identical packs, as inside a body, are stored once. Those of faces are one list.
 struct TileView {
@@ -66,13 +66,13 @@ struct SharedNodes {
 };
 
 /// A tile's planes of nodes in the scratch: kPlaneArrays arrays each, an odd number of cache lines long, since arrays
-/// at power-of-two distances would compete for the same cache lines. There is no node before kFirstPlace.
-inline constexpr int kFirstPlace = 8;
-inline constexpr int kMostPlaces = 760;  // of a plane, with room for a pack, a row and a place behind the last brick
+/// at power-of-two distances would compete for the same cache lines. There is no node before kFirstSlot.
+inline constexpr int kFirstSlot = 8;
+inline constexpr int kMaxSlots = 760;  // of a plane, with room for a pack, a row and a slot behind the last brick
 inline constexpr int kArraySize = 776;
 inline constexpr int kPlaneArrays = 23;
 inline constexpr int kPlaneSize = kPlaneArrays * kArraySize;
-static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstPlace + kMostPlaces + kPackPadding);
+static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstSlot + kMaxSlots + kPackPadding);
 
 /// Doubles of scratch for a tile.
 inline constexpr int kScratchSize = 2 * kPlaneSize;
@@ -103,7 +103,7 @@ enum SolidNumber : int {
   kSolidNumbers = 80
 };
 
-enum class Pass {
+enum class KernelTask {
   kForces,   // writes the springs' forces, N
   kDamping,  // writes their damping part, N
   kProduct,  // writes the second derivative of the energy times the vector in place of velocities, N; solid bricks only
@@ -111,9 +111,9 @@ enum class Pass {
   kMove      // positions += drift * velocities, then velocities += kick * (forces / mass + gravity - alpha velocities)
 };
 
-/// Input and output of a pass over a body's tiles; arrays hold x y z per node.
-struct PassInput {
-  Pass pass = Pass::kForces;
+/// Input and output of a task over a body's tiles; arrays hold x y z per node.
+struct KernelInput {
+  KernelTask task = KernelTask::kForces;
   BrickLaw law;
   bool is_solid = false;  // then bricks follow `solid`, not `law`
   SolidLaw solid;
@@ -134,12 +134,12 @@ using EnergyLanes = std::array<double, kPackPadding>;
 
 /// Computes all springs of a tile. Its own nodes are then finished; its contributions to the forces on shared nodes go
 /// to `shared`. `scratch` holds kScratchSize finite numbers. The energy is added lane by lane.
-using TilePass = void (*)(const TileView& tile, const PassInput& input, double* scratch, double* shared,
-                          EnergyLanes& energy);
+using TileKernel = void (*)(const TileView& tile, const KernelInput& input, double* scratch, double* shared,
+                            EnergyLanes& energy);
 
 /// Sums the contributions to the forces on shared nodes and finishes those nodes.
-using SharedPass = void (*)(const SharedNodes& nodes, const SharedPart* parts, const double* shared,
-                            const PassInput& input);
+using SharedNodesKernel = void (*)(const SharedNodes& nodes, const SharedPart* parts, const double* shared,
+                                   const KernelInput& input);
 
 /// The second derivatives of the energy of kPackPadding solid bricks with respect to their corners 1 to 7, N/m: entry
 /// anchored_index(a, b) of each side by side. `own`: their parameters, see TileView; `corners`: x y z of each corner,
@@ -149,8 +149,8 @@ using SolidMatrices = void (*)(const SolidLaw& law, const double* own, const dou
 /// The innermost loops, compiled for one instruction set; null if the processor cannot run them.
 struct SpringKernel {
   const char* name = "";
-  TilePass tile = nullptr;
-  SharedPass shared = nullptr;
+  TileKernel tile = nullptr;
+  SharedNodesKernel shared = nullptr;
   SolidMatrices solid_matrices = nullptr;
 };
 

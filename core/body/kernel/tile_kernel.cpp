@@ -1,4 +1,4 @@
-#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_kernel.h"
 
 #include <algorithm>
 
@@ -17,9 +17,9 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 namespace {
 
 /// How many nodes are copied in at a time, so that later stages find them in the L1 cache.
-constexpr int kStride = 96;  // places
+constexpr int kStride = 96;  // slots
 
-/// Packs that begin before this have their neighbours, a row and a place further on, before `index`.
+/// Packs that begin before this have their neighbours, a row and a slot further on, before `index`.
 int before_neighbours(int index, int pitch) { return index - pitch - kPackPadding; }
 
 /// Sweeps a tile from low to high z with two planes of nodes in the scratch. Within a plane, edges are measured once
@@ -28,7 +28,7 @@ int before_neighbours(int index, int pitch) { return index - pitch - kPackPaddin
 template <Layout kLayout, Part kPart>
 class Walk {
  public:
-  Walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy)
+  Walk(const TileView& tile, const KernelInput& input, double* scratch, double* shared, Energy& energy)
       : tile_(tile),
         input_(input),
         scratch_(scratch),
@@ -54,7 +54,7 @@ class Walk {
     RunCursor edges;
 
     Entry(const TileView& tile, int index)
-        : plane(index), nodes(tile, index, kNodes), sums(tile, index, kPlaces), edges(tile, index, kPlaces) {}
+        : plane(index), nodes(tile, index, kNodes), sums(tile, index, kSlots), edges(tile, index, kSlots) {}
   };
 
   /// How far the bricks between a plane and the next have been computed.
@@ -67,7 +67,7 @@ class Walk {
 
     Layer(const TileView& tile, int index)
         : plane(index),
-          edges(tile, index, kPlaces),
+          edges(tile, index, kSlots),
           bricks(tile, index, kBricks),
           zx_faces(tile, index, kZxFaces),
           yz_faces(tile, index, kYzFaces) {}
@@ -84,17 +84,17 @@ class Walk {
     Exit(const TileView& tile, int index)
         : plane(index),
           faces(tile, index, kXyFaces),
-          edges(tile, index, kPlaces),
+          edges(tile, index, kSlots),
           nodes(tile, index, kOwnNodes),
           shared_nodes(tile, index, kSharedNodes) {}
   };
 
-  [[nodiscard]] Place plane(int index) const { return {scratch_ + (index & 1) * kPlaneSize}; }
-  [[nodiscard]] Place next_row(int index) const { return {plane(index).values + tile_.pitch}; }
+  [[nodiscard]] PlaneView plane(int index) const { return {scratch_ + (index & 1) * kPlaneSize}; }
+  [[nodiscard]] PlaneView next_row(int index) const { return {plane(index).values + tile_.pitch}; }
 
-  /// Behind the last place of a plane.
+  /// Behind the last slot of a plane.
   [[nodiscard]] int end_of(int index) const {
-    const Run& last = tile_.runs[tile_.first_run[index * kRunKinds + kPlaces + 1] - 1];
+    const Run& last = tile_.runs[tile_.first_run[index * kRunKinds + kSlots + 1] - 1];
     return last.index + last.count;
   }
 
@@ -117,35 +117,35 @@ class Walk {
     }
   }
 
-  /// With zeroed sums; contributions to a run's first node from the node before it are stored one place lower.
+  /// With zeroed sums; contributions to a run's first node from the node before it are stored one slot lower.
   void enter(Entry& entry, int nodes_to, int edges_to) {
-    const Place to = plane(entry.plane);
+    const PlaneView to = plane(entry.plane);
     entry.sums.go_to(nodes_to, [&](const RunPart& part) {
       if (part.begin == 0) {
         for (int array = kForceHigh; array < kSums; ++array) *to.at(array, part.index() - 1) = 0;
       }
-      part.each_pack([&](int place) {
-        const Place here = to.seen_from(place);
+      part.each_pack([&](int slot) {
+        const PlaneView here = to.seen_from(slot);
         for (int array = 0; array < kSums; ++array) store(Pack(0.0), here.at(array));
       });
     });
     entry.nodes.go_to(nodes_to, [&](const RunPart& part) { copy_in(to, part); });
     if constexpr (kLayout.solid) return;
-    each_pack(entry.edges, edges_to, [&](int place) {
-      const Place here = to.seen_from(place);
+    each_pack(entry.edges, edges_to, [&](int slot) {
+      const PlaneView here = to.seen_from(slot);
       measure_edges<kPart, 0>(edge_, {here, here});
-      measure_edges<kPart, 1>(edge_, {here, next_row(entry.plane).seen_from(place)});
+      measure_edges<kPart, 1>(edge_, {here, next_row(entry.plane).seen_from(slot)});
     });
   }
 
-  void copy_in(const Place& to, const RunPart& part) const {
+  void copy_in(const PlaneView& to, const RunPart& part) const {
     const std::ptrdiff_t first = 3 * std::ptrdiff_t(part.run.node + part.begin);
     take_apart<reads_velocities(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
                                         three(to, kPosition, part.index()), three(to, kVelocity, part.index()));
   }
 
-  static Three<double> three(const Place& from, int array, int place) {
-    return {from.at(array, place), from.at(array + 1, place), from.at(array + 2, place)};
+  static Three<double> three(const PlaneView& from, int array, int slot) {
+    return {from.at(array, slot), from.at(array + 1, slot), from.at(array + 2, slot)};
   }
 
   template <Shift kShift>
@@ -154,23 +154,23 @@ class Walk {
   }
 
   /// Both face diagonals along x.
-  void pull_faces(const Place& low, const Place& high, const RunPart& part) {
+  void pull_faces(const PlaneView& low, const PlaneView& high, const RunPart& part) {
     pull_diagonals_of(Ends<Shift::kTo>{low, high}, part);
     pull_diagonals_of(Ends<Shift::kFrom>{low, high}, part);
   }
 
   /// What lies between a plane and the next.
   void fill(Layer& layer, int edges_to, int bricks_to) {
-    const Place low = plane(layer.plane);
-    const Place high = plane(layer.plane + 1);
+    const PlaneView low = plane(layer.plane);
+    const PlaneView high = plane(layer.plane + 1);
     if constexpr (kLayout.solid) {
       layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
         solid_run<kPart>(input_.solid, input_.beta, {low, high, tile_.pitch}, part, tile_, energy_);
       });
       return;
     }
-    each_pack(layer.edges, edges_to, [&](int place) {
-      measure_edges<kPart, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
+    each_pack(layer.edges, edges_to, [&](int slot) {
+      measure_edges<kPart, 2>(edge_, {low.seen_from(slot), high.seen_from(slot)});
     });
     layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
       brick_run<kLayout, kPart>(springs_, {low, high, tile_.pitch}, part, tile_, energy_);
@@ -187,7 +187,7 @@ class Walk {
   /// Bricks before `to` are done.
   template <bool kHasLayer>
   void leave(Exit& exit, int to) {
-    const Place from = plane(exit.plane);
+    const PlaneView from = plane(exit.plane);
     if constexpr (kLayout.faces) {
       exit.faces.go_to(to, [&](const RunPart& part) { pull_faces(from, next_row(exit.plane), part); });
     }
@@ -211,35 +211,34 @@ class Walk {
   /// Sums of nodes are then complete.
   template <bool kHasLayer>
   void pull_edges_of(int index, const RunPart& part) const {
-    const Place from = plane(index);
+    const PlaneView from = plane(index);
     if constexpr (!kLayout.solid) {
-      part.each_pack([&](int place) {
-        pull_edges<kHasLayer>(from.seen_from(place), next_row(index).seen_from(place),
-                              plane(index + 1).seen_from(place));
+      part.each_pack([&](int slot) {
+        pull_edges<kHasLayer>(from.seen_from(slot), next_row(index).seen_from(slot), plane(index + 1).seen_from(slot));
       });
     }
-    part.each_pack([&](int place) {
-      const Place here = from.seen_from(place);
+    part.each_pack([&](int slot) {
+      const PlaneView here = from.seen_from(slot);
       here.set_three(kForceLow, here.three(kForceLow) + here.three(kForceHigh, -1));
     });
   }
 
   const TileView& tile_;
-  const PassInput& input_;
+  const KernelInput& input_;
   double* scratch_;
   double* shared_;
   Energy& energy_;
-  Kind edge_;
+  SpringType edge_;
   BrickSprings springs_;
 };
 
 template <Layout kLayout>
-void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
-  if (input.pass == Pass::kEnergy) {
+void walk(const TileView& tile, const KernelInput& input, double* scratch, double* shared, Energy& energy) {
+  if (input.task == KernelTask::kEnergy) {
     Walk<kLayout, Part::kEnergy>(tile, input, scratch, shared, energy).run();
-  } else if (input.pass == Pass::kProduct) {
+  } else if (input.task == KernelTask::kProduct) {
     if constexpr (kLayout.solid) Walk<kLayout, Part::kProduct>(tile, input, scratch, shared, energy).run();
-  } else if (input.pass == Pass::kDamping) {
+  } else if (input.task == KernelTask::kDamping) {
     Walk<kLayout, Part::kDamping>(tile, input, scratch, shared, energy).run();
   } else if (input.beta > 0) {
     Walk<kLayout, Part::kElasticAndDamping>(tile, input, scratch, shared, energy).run();
@@ -248,8 +247,8 @@ void walk(const TileView& tile, const PassInput& input, double* scratch, double*
   }
 }
 
-/// One pass for solid bricks and for each layout of springs, which follows from the zeros of the law.
-void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
+/// One kernel for solid bricks and for each layout of springs, which follows from the zeros of the law.
+void run_tile(const TileView& tile, const KernelInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.is_solid) return walk<Layout{.solid = true}>(tile, input, scratch, shared, energy);
   const BrickLaw& law = input.law;
   const bool bends = law.bending_self != 0 || law.bending_cross != 0;
@@ -265,7 +264,7 @@ void run_tile(const TileView& tile, const PassInput& input, double* scratch, dou
 
 constexpr int kSharedAtOnce = 64;
 
-void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const double* shared, const PassInput& input) {
+void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const double* shared, const KernelInput& input) {
   for (int done = 0; done < nodes.count; done += kSharedAtOnce) {
     const int first = nodes.node + done;
     const int last = first + std::min(kSharedAtOnce, nodes.count - done);
