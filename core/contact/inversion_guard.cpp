@@ -95,8 +95,11 @@ void InversionGuard::look(const Body& body, double dt) {
 }
 
 const std::vector<InversionRate>& InversionGuard::find(const Body& body, double dt) {
-  if (steps_to_update_ == 0) look(body, dt);
-  steps_to_update_ = (steps_to_update_ + 1) % kStepsBetweenLooks;
+  if (to_look_.is_due()) {
+    look(body, dt);
+    to_look_.restart(kStepsBetweenLooks);
+  }
+  to_look_.tick();
   found_.clear();
   const double volume = body.grid.brick_volume();
   const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m

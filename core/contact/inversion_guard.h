@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/contact/countdown.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -55,7 +56,7 @@ class InversionGuard {
   std::vector<char> is_suspect_;  // per brick
   std::vector<int> suspects_;     // bricks
   std::vector<InversionRate> found_;
-  int steps_to_update_ = 0;
+  Countdown to_look_;
 };
 
 }  // namespace sprung

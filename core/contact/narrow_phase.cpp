@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/query/barycentric.h"
+
 namespace sprung {
 namespace {
 
@@ -17,14 +19,11 @@ bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double dep
   const Vec3 ahead = corners[1]->position - corners[0]->position;
   const Vec3 aside = corners[2]->position - corners[0]->position;
   const Vec3 area = ahead.cross(aside);
-  const double size = area.norm();
   const Vec3 off = point.position - corners[0]->position;
   stance.pair = &pair;
-  stance.normal = area / size;
+  stance.normal = area / area.norm();
   stance.gap = stance.normal.dot(off);
-  stance.weights.y() = off.cross(aside).dot(area) / (size * size);
-  stance.weights.z() = ahead.cross(off).dot(area) / (size * size);
-  stance.weights.x() = 1 - stance.weights.y() - stance.weights.z();
+  stance.weights = barycentric(ahead, aside, off);
   if (pairs.may_look_away() && point.normal.dot(stance.normal) > kFacing) return false;
   return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not if the triangle has no area
 }

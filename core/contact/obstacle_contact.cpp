@@ -90,7 +90,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
       }
     }
   }
-  steps_to_update_ = steps;
+  to_look_.restart(steps);
 }
 
 bool ObstacleContact::is_active(const BrickMotion& motion, const ObstacleState& state, NearPoint& near,
@@ -156,8 +156,8 @@ void ObstacleContact::find(const World& world, const std::vector<Pose>& poses, d
       for (const ContactSurface* skin : skins_) by_body.emplace_back(skin->bricks.size());
     }
   }
-  if (steps_to_update_ == 0) look(world, poses, dt, group);
-  --steps_to_update_;
+  if (to_look_.is_due()) look(world, poses, dt, group);
+  to_look_.tick();
   for (const Near& near : near_) touch_brick(world, poses, dt, group, near, contacts);
 }
 

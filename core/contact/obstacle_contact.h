@@ -3,6 +3,7 @@
 
 #include "core/body/body.h"
 #include "core/contact/contacts.h"
+#include "core/contact/countdown.h"
 #include "core/contact/search/contact_surface.h"
 
 namespace sprung {
@@ -74,7 +75,7 @@ class ObstacleContact {
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
   std::vector<std::vector<std::vector<GapQuery>>> middles_;  // by obstacle, body and index in the skin's bricks
-  int steps_to_update_ = 0;
+  Countdown to_look_;
 };
 
 }  // namespace sprung

@@ -130,21 +130,21 @@ void SkinContact::look(const Group& group) {
 }
 
 void SkinContact::look_in_time(const Group& group, double gravity, double dt) {
-  if (steps_to_update_ == 0) {
-    if (steps_to_seek_ <= 0) {
+  if (to_update_.is_due()) {
+    if (to_seek_.is_due()) {
       pairs_.seek(group, kFarMargin * brick_);
-      steps_to_seek_ = steps_until_update((kFarMargin - kSkinMargin) * brick_, pairs_.fastest(group), gravity, dt);
+      to_seek_.restart(steps_until_update((kFarMargin - kSkinMargin) * brick_, pairs_.fastest(group), gravity, dt));
     }
     pairs_.look(group, {.margin = kSkinMargin * brick_, .deepest = kSkinDeepest * brick_});
     runs_ = runs_of(pairs_);
-    steps_to_update_ = steps_to_seek_;
+    to_update_ = to_seek_;
     if (pairs_.has_near_bricks()) {
       const int steps = steps_until_update(pairs_.nearest_beyond(), pairs_.fastest_near(group), gravity, dt);
-      steps_to_update_ = std::min(steps, steps_to_seek_);
+      to_update_.restart(std::min(steps, to_seek_.steps()));
     }
   }
-  --steps_to_seek_;
-  --steps_to_update_;
+  to_seek_.tick();
+  to_update_.tick();
 }
 
 void SkinContact::find(const World& world, double dt, const Group& group, ContactList& contacts) {
@@ -205,13 +205,13 @@ bool SkinContacts::is_of(const Group& group) const {
 
 void SkinContacts::begin_frame() {
   contacts_.clear();
-  steps_to_seek_ = 0;
-  steps_to_look_ = 0;
+  to_seek_ = {};
+  to_look_ = {};
 }
 
 void SkinContacts::seek(const World& world, const Group& group, double dt) {
   const double margin = kBodyMargin * smallest_brick(group);
-  steps_to_seek_ = steps_until_update(margin, fastest(group), world.gravity.norm(), dt);
+  to_seek_.restart(steps_until_update(margin, fastest(group), world.gravity.norm(), dt));
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts;
   for (const auto& pair : broad_phase(world, group, margin)) {
     if (auto known = contacts_.extract(pair)) {
@@ -222,7 +222,7 @@ void SkinContacts::seek(const World& world, const Group& group, double dt) {
     }
   }
   contacts_ = std::move(contacts);
-  steps_to_look_ = 0;
+  to_look_ = {};
 }
 
 void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravity, double dt) {
@@ -230,22 +230,22 @@ void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravit
   for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
   const double way = kLookAhead * smallest_brick(group_);
   const bool is_slow = 2 * fastest * dt * kMaxStepsAhead <= way;
-  steps_to_look_ = is_slow ? kMaxStepsAhead : std::max(1, int(way / (2 * fastest * dt)));
-  const double time = steps_to_look_ * dt;
+  to_look_.restart(is_slow ? kMaxStepsAhead : std::max(1, int(way / (2 * fastest * dt))));
+  const double time = to_look_.steps() * dt;
   const auto follow = [&](std::size_t body) { trees_[body]->follow(kFaster * time, gravity * time * time); };
   tbb::parallel_for(std::size_t{0}, trees_.size(), follow);
   for (SkinContact* contact : contacts) contact->look(group_);
 }
 
 void SkinContacts::find(const World& world, double dt, const Group& group, ContactList& found) {
-  if (steps_to_seek_ == 0) seek(world, group, dt);
-  --steps_to_seek_;
+  if (to_seek_.is_due()) seek(world, group, dt);
+  to_seek_.tick();
   std::vector<SkinContact*> contacts;
   contacts.reserve(contacts_.size());
   for (auto& [pair, contact] : contacts_) contacts.push_back(&contact);
   if (contacts.empty()) return;
-  if (!trees_.empty() && steps_to_look_ <= 0) look(contacts, world.gravity.norm(), dt);
-  --steps_to_look_;
+  if (!trees_.empty() && to_look_.is_due()) look(contacts, world.gravity.norm(), dt);
+  to_look_.tick();
   found_.resize(contacts.size());
   tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
     found_[i].clear();

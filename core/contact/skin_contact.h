@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/contacts.h"
+#include "core/contact/countdown.h"
 #include "core/contact/narrow_phase.h"
 #include "core/contact/search/contact_surface.h"
 
@@ -67,8 +68,8 @@ class SkinContact {
   /// this one.
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_before_;
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_;
-  int steps_to_seek_ = 0;
-  int steps_to_update_ = 0;
+  Countdown to_seek_;
+  Countdown to_update_;
 };
 
 /// How pairs of points and triangles are found. Fronts miss none that is near (see ContactFront), and are faster for
@@ -104,8 +105,8 @@ class SkinContacts {
   std::vector<std::unique_ptr<SurfaceTree>> trees_;                      // likewise; none without fronts
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // bodies of the group; twice the same: itself
   std::vector<ContactList> found_;                                       // by pair
-  int steps_to_seek_ = 0;
-  int steps_to_look_ = 0;
+  Countdown to_seek_;
+  Countdown to_look_;
 };
 
 }  // namespace sprung

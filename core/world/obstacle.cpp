@@ -7,25 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/query/barycentric.h"
 #include "core/mesh/query/closest_triangle.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kOnSide = 1e-9;  // barycentric coordinates below this are on a side
-
-/// Barycentric coordinates of a point in the plane of a triangle.
-Vec3 barycentric(const std::array<Vec3, 3>& x, const Vec3& position) {
-  const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
-  const double area = normal.squaredNorm();
-  Vec3 weights;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& a = x[(i + 1) % 3];
-    const Vec3& b = x[(i + 2) % 3];
-    weights[i] = (b - a).cross(position - a).dot(normal) / area;
-  }
-  return weights;
-}
 
 }  // namespace
 
@@ -80,7 +68,8 @@ class MeshDistance::Tree {
 
   [[nodiscard]] Vec3 normal_at(int row, const Vec3& closest) const {
     const std::array<int, 3> corners = corners_of(row);
-    const Vec3 weights = barycentric(places(corners), closest);
+    const std::array<Vec3, 3> x = places(corners);
+    const Vec3 weights = barycentric(x[1] - x[0], x[2] - x[0], closest - x[0]);
     for (std::size_t i = 0; i < 3; ++i) {
       if (weights[i] > 1 - kOnSide) return vertex_normals_.row(corners[i]);
     }

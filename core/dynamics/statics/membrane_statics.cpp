@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dynamics/statics/statics.h"
+#include "core/dynamics/statics/load_steps.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -120,28 +120,17 @@ Points2 solve_linear(const Membrane& membrane, const Points2& loads) {
 
 StaticReport solve_static(Membrane& membrane, const Points2& loads, const StaticOptions& options) {
   StaticReport report;
-  report.load_steps = 0;
-  double done = 0;
-  double stride = 1;
-  while (done < 1) {
-    const double share = std::min(1.0, done + stride);
+  const double reached = raise_load(options, report, [&](double share) {
     const Points2 before = membrane.positions;
     const Points2 load = share * loads;
-    if (find_equilibrium(membrane, load, options, report)) {
-      done = share;
-      ++report.load_steps;
-      stride *= 2;
-      continue;
-    }
+    if (find_equilibrium(membrane, load, options, report)) return true;
     membrane.positions = before;
-    stride = std::min(stride, share - done) / 2;
-    if (stride * options.max_load_steps < 1) {
-      throw Error(ErrorKind::kDiverged, fmt::format("no equilibrium of the membrane found beyond {:.3g} of the load "
-                                                    "(residual {:.2g}); use a stiffer material or a smaller load",
-                                                    done, report.residual));
-    }
-  }
-  return report;
+    return false;
+  });
+  if (reached == 1) return report;
+  throw Error(ErrorKind::kDiverged, fmt::format("no equilibrium of the membrane found beyond {:.3g} of the load "
+                                                "(residual {:.2g}); use a stiffer material or a smaller load",
+                                                reached, report.residual));
 }
 
 Points2 reactions(const Membrane& membrane, const Points2& loads) {

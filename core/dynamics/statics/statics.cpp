@@ -10,6 +10,7 @@
 #include "core/body/forces.h"
 #include "core/dynamics/linear/stiffness.h"
 #include "core/dynamics/statics/free_motion.h"
+#include "core/dynamics/statics/load_steps.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -328,33 +329,22 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
     }
   };
   StaticReport report;
-  report.load_steps = 0;
-  double done = 0;
-  double stride = 1;
   body.positions = start;
-  while (done < 1) {
-    const double share = std::min(1.0, done + stride);
+  const double reached = raise_load(options, report, [&](double share) {
     const Points before = body.positions;
     move_supports(share);
     move_springs(share);
     const Points load = share * loads;
-    if (Equilibrium(body, moving, load, system, options).find(report)) {
-      done = share;
-      ++report.load_steps;
-      stride *= 2;
-      continue;
-    }
+    if (Equilibrium(body, moving, load, system, options).find(report)) return true;
     body.positions = before;
-    stride = std::min(stride, share - done) / 2;
-    if (stride * options.max_load_steps < 1 || report.iterations >= options.max_iterations_in_all) {
-      throw_if_free(body, supports, "no equilibrium found");
-      throw Error(ErrorKind::kDiverged,
-                  fmt::format("no equilibrium found beyond {:.3g} of the load (residual {:.2g}): the body may have "
-                              "buckled or collapsed; use a stiffer material, a smaller load or more bricks",
-                              done, report.residual));
-    }
-  }
-  return report;
+    return false;
+  });
+  if (reached == 1) return report;
+  throw_if_free(body, supports, "no equilibrium found");
+  throw Error(ErrorKind::kDiverged,
+              fmt::format("no equilibrium found beyond {:.3g} of the load (residual {:.2g}): the body may have buckled "
+                          "or collapsed; use a stiffer material, a smaller load or more bricks",
+                          reached, report.residual));
 }
 
 Points reactions(const Body& body, const Supports& supports, const Points& loads) {
