@@ -35,14 +35,20 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// False if the file does not appear, or the program ends before it does.
-  [[nodiscard]] bool wait_for(const std::filesystem::path& file) const {
+  /// Waits until holds() is true. False if it is not by the time the program ends, or within two minutes.
+  template <class Condition>
+  [[nodiscard]] bool wait_until(const Condition& holds) const {
     constexpr int kLooks = 120000;
     for (int look = 0; look < kLooks; ++look) {
-      if (std::filesystem::exists(file)) return true;
+      const bool has_ended = this->has_ended();
+      if (holds()) return true;
+      if (has_ended) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return false;
+  }
+  [[nodiscard]] bool wait_for(const std::filesystem::path& file) const {
+    return wait_until([&file] { return std::filesystem::exists(file); });
   }
 
   void signal(int number) const { kill(process_, number); }
@@ -58,6 +64,11 @@ class RunningProgram {
   }
 
  private:
+  [[nodiscard]] bool has_ended() const {
+    siginfo_t info{};
+    return waitid(P_PID, id_t(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+  }
+
   const TempFolder& folder_;
   pid_t process_ = -1;
 };

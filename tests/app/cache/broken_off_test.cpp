@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/simulation/cache.h"
 #include "tests/support/running_program.h"
 #include "tests/support/sanitized.h"
@@ -24,6 +25,15 @@ std::vector<std::string> words_in(const std::string& text) {
 std::uint64_t last_hash(const fs::path& file) {
   const CacheReader cache(file);
   return cache.frame(cache.frame_count() - 1).state_hash;
+}
+
+/// False while the cache is not there, or has just been begun.
+bool has_frame(const fs::path& file) {
+  try {
+    return fs::exists(file) && CacheReader(file).frame_count() > 0;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// The command that the program gives.
@@ -72,8 +82,7 @@ TEST_F(BrokenOff, BySignalsItSaysHowToGoOn) {
 /// It does not wait for the end of the frame.
 TEST_F(BrokenOff, InALongFrameItStopsAtOnceAndStaysReadable) {
   RunningProgram program(folder_, kLongFrames);
-  ASSERT_TRUE(program.wait_for(folder_.path() / "run.h5"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(program.wait_until([this] { return has_frame(folder_.path() / "run.h5"); }));
   const auto begin = std::chrono::steady_clock::now();
   program.signal(SIGTERM);
   const ProgramRun ended = program.wait();
