@@ -2,7 +2,7 @@
 """Finite-element references of four parts under load (CalculiX, C3D10 quadratic tetrahedra, linear statics).
 
     apt-get install -y calculix-ccx gmsh python3-gmsh python3-numpy
-    /usr/bin/python3 parts.py [--meshes /work/shared/meshes] [--work /tmp/parts_ref] [--only PART] [--keep]
+    /usr/bin/python3 parts.py --meshes FOLDER [--work /tmp/parts_ref] [--only PART] [--keep]
 
 Writes parts.json, bracket.stl and bracket_bent.stl beside itself. Units: mm, N, MPa.
 Planar-faced parts are meshed on the very polygons of their triangle file (coplanar triangles merged, no
@@ -354,7 +354,7 @@ def bracket_hand():
 
 PARTS = {
     'large_block_obb': dict(
-        file='shared/meshes/large_block_obb.STL', path=shared('large_block_obb.STL'), geometry='stl', sizes=(150, 75, 37.5),
+        file='large_block_obb.STL', path=shared('large_block_obb.STL'), geometry='stl', sizes=(150, 75, 37.5),
         exclude_mm=304.8, reentrant=[],
         exclusion='farther than 304.8 mm (one thickness) from the fixed and the loaded face; no re-entrant edges',
         note='a skewed (oblique) block, not a box: end faces lean 1.1 degree and the sides run oblique to them; the y-low and y-high '
@@ -362,7 +362,7 @@ PARTS = {
         cases={'bend_z': dict(fix=OBB_LOW, load=OBB_HIGH, force=(0, 0, -1000)),
                'push_x': dict(fix=OBB_LOW, load=OBB_HIGH, force=(1000, 0, 0))}),
     'plate_holes': dict(
-        file='shared/meshes/plate_holes.STL', path=shared('plate_holes.STL'), geometry='stl', sizes=(8.5, 6, 4.25),
+        file='plate_holes.STL', path=shared('plate_holes.STL'), geometry='stl', sizes=(8.5, 6, 4.25),
         size_fields=['H'] + ['0.28*H + 0.35*(sqrt((x-%r)^2+(y-%r)^2)-3.3)' % c for c in HOLES] +
                     ['0.12*H + 0.35*sqrt(x^2+(z-6.35)^2)', '0.5*H + 0.35*(203.2-x)'],   # the clamp ends on a smooth surface: singular
         exclude_mm=12.7, reentrant=[('circle', (101.6, 154.4807, 6.35), 5.55625, 2.0)],
@@ -403,7 +403,7 @@ def words(w):
 
 def main():
     ap = argparse.ArgumentParser()
-    ap.add_argument('--meshes', default='/work/shared/meshes'); ap.add_argument('--work', default='/tmp/parts_ref')
+    ap.add_argument('--meshes', required=True); ap.add_argument('--work', default='/tmp/parts_ref')
     ap.add_argument('--only'); ap.add_argument('--sizes', type=int, default=9, help='only the first N mesh sizes (trial)')
     ap.add_argument('--out', default=os.path.join(HERE, 'parts.json'))
     a = ap.parse_args()

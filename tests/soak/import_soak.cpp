@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
+#include "tests/external/external_mesh.h"
 #include "tests/soak/mesh_corpus.h"
 #include "tests/soak/mutation.h"
 #include "tests/support/meshes.h"
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestShared = 100'000;  // bytes of a shared mesh that is worth many mutations
+constexpr std::uintmax_t kLargestMesh = 100'000;                   // bytes of a mesh that is worth many mutations
 constexpr long kMaxKilobytes = kSanitized ? LONG_MAX : 1'000'000;  // readers have no limit of memory under ASan
 constexpr double kMaxSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
 
@@ -48,10 +49,10 @@ std::string bytes_of(const fs::path& file) {
 std::vector<Sample> samples_in(const TempFolder& folder) {
   std::vector<fs::path> files = write_mesh_corpus(folder.path());
   for (const fs::path& file : files) static_cast<void>(read_mesh(file));  // throws if one is not a sound file at all
-  if (fs::exists(shared_mesh(""))) {
-    for (const auto& entry : fs::recursive_directory_iterator(shared_mesh(""))) {
+  if (fs::exists(external_mesh(""))) {
+    for (const auto& entry : fs::recursive_directory_iterator(external_mesh(""))) {
       const std::string extension = entry.path().extension().string();
-      if (!entry.is_regular_file() || entry.file_size() > kLargestShared) continue;
+      if (!entry.is_regular_file() || entry.file_size() > kLargestMesh) continue;
       if (extension != ".md" && extension != ".png" && extension != ".txt") files.push_back(entry.path());
     }
   }

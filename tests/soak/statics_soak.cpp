@@ -15,6 +15,7 @@
 #include "core/simulation/drivers.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
+#include "tests/external/external_mesh.h"
 #include "tests/soak/dice.h"
 #include "tests/support/meshes.h"
 
@@ -99,7 +100,7 @@ Part random_mesh_of_a_file(Dice& dice) {
       "bunny.obj",           "hand_lowres.obj", "scorpion_low_resolution.obj", "bob_small.ply", "eight.off",
       "blobby-shuffled.off", "scallop.glb",     "spot_triangulated.obj"};
   const std::string name = names[std::size_t(dice.whole(0, int(names.size()) - 1))];
-  return {name, read_mesh(shared_mesh(name))};
+  return {name, read_mesh(external_mesh(name))};
 }
 
 struct Case {
@@ -112,7 +113,7 @@ constexpr double kWrong = 1e-5;    // a direct solver's own rounding in slender 
 
 Case random_case(std::uint32_t seed, std::uint32_t index) {
   Dice dice(seed, index);
-  const bool has_files = std::filesystem::exists(shared_mesh("bunny.obj"));
+  const bool has_files = std::filesystem::exists(external_mesh("bunny.obj"));
   const Part part = has_files && dice.is_so(0.25) ? random_mesh_of_a_file(dice) : random_part(dice);
   Case made;
   Scene& scene = made.scene;

@@ -26,11 +26,6 @@ inline int count_of_kind(const Solids& found, const std::string& kind) {
   return repair == found.repairs.end() ? 0 : repair->count;
 }
 
-/// A file of the shared test meshes; they are next to the project and may be absent.
-inline std::filesystem::path shared_mesh(const std::string& name) {
-  return std::filesystem::path(SPRUNG_SHARED_MESHES) / name;
-}
-
 inline SurfaceMesh mesh_of(Points positions, Triangles triangles) {
   SurfaceMesh mesh;
   mesh.positions = std::move(positions);

@@ -11,6 +11,7 @@
 #include "core/bricks/voxelize.h"
 #include "core/mesh/io/read_mesh.h"
 #include "tests/support/meshes.h"
+#include "tests/support/models.h"
 
 namespace sprung {
 namespace {
@@ -68,17 +69,16 @@ TEST(BricksOracle, AgreesOnATorus) {
   expect_agreement(find_solids(test::torus_mesh(2, 0.6), "torus").solids.at(0), 32);
 }
 
-class BricksOracleShared : public ::testing::TestWithParam<const char*> {};
+class BricksOracleModels : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(BricksOracleShared, Agrees) {
-  const auto file = test::shared_mesh(GetParam());
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+TEST_P(BricksOracleModels, Agrees) {
+  const auto file = test::model(GetParam());
   expect_agreement(find_solids(read_mesh(file), GetParam()).solids.at(0), 32);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, BricksOracleShared,
-                         ::testing::Values("spot_triangulated.obj", "bunny.obj", "scorpion_low_resolution.obj",
-                                           "eight.off", "double-torus-example.off", "plate_holes.STL"));
+INSTANTIATE_TEST_SUITE_P(All, BricksOracleModels,
+                         ::testing::Values("octopus.ply", "bear.ply", "knot.ply", "torus.ply", "gripper.ply",
+                                           "wheel.ply"));
 
 }  // namespace
 }  // namespace sprung

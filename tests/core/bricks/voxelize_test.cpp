@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "tests/support/meshes.h"
+#include "tests/support/models.h"
 #include "tests/support/sanitized.h"
 
 namespace sprung {
@@ -140,11 +141,10 @@ TEST(Voxelize, AMillionBricksTakeSeconds) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, most) << "even on a busy machine, unoptimised";
 }
 
-class SharedVolumes : public ::testing::TestWithParam<const char*> {};
+class ModelVolumes : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(SharedVolumes, AreKeptAt32Bricks) {
-  const auto file = test::shared_mesh(GetParam());
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+TEST_P(ModelVolumes, AreKeptAt32Bricks) {
+  const auto file = test::model(GetParam());
   const SurfaceMesh mesh = read_mesh(file);
   const double size = longest_side(mesh.positions) / 32;
   double volume = 0;
@@ -161,26 +161,13 @@ TEST_P(SharedVolumes, AreKeptAt32Bricks) {
   EXPECT_NEAR(bricks / volume, 1, 0.005);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, SharedVolumes,
-                         ::testing::Values("spot_triangulated.obj", "bunny.obj", "eight.off", "bob_small.ply",
-                                           "scorpion_low_resolution.obj", "cube_gears.3mf", "blobby-shuffled.off",
-                                           "ellipe0.003.off", "Duck.glb", "test_pos_color.ply", "scallop.glb",
-                                           "unit_cube.STL", "large_block_obb.STL", "plate_holes.STL", "sphere.dae",
-                                           "huesitos.fbx", "double-torus-example.off"));
+INSTANTIATE_TEST_SUITE_P(All, ModelVolumes,
+                         ::testing::Values("bear.ply", "bracket.stl", "gripper.ply", "gummy.ply", "jelly.ply",
+                                           "knot.ply", "octopus.ply", "pudding.ply", "tentacle.ply", "torus.ply",
+                                           "wheel.ply"));
 
-TEST(SharedVolume, OfASurfaceThroughItselfIsThatOfTheUnion) {
-  const auto file = test::shared_mesh("self_intersectA.obj");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const Solid solid = solid_of(read_mesh(file));
-  const double fine = voxelize(solid, longest_side(solid.points) / 160).volume();
-  EXPECT_LT(fine, 0.97 * solid.volume) << "the overlap is counted twice";
-  EXPECT_NEAR(voxelize(solid, longest_side(solid.points) / 32).volume() / fine, 1, 0.005);
-}
-
-TEST(SharedVolume, UnitCubeIsExactlyItsBricks) {
-  const auto file = test::shared_mesh("unit_cube.STL");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const Solid solid = solid_of(read_mesh(file));
+TEST(Voxelize, UnitCubeIsExactlyItsBricks) {
+  const Solid solid = solid_of(test::box_mesh(Vec3::Zero(), Vec3::Ones()));
   for (int n = 1; n <= 40; ++n) {
     const BrickGrid grid = voxelize(solid, 1.0 / n);
     EXPECT_EQ(grid.brick_count(), n * n * n);

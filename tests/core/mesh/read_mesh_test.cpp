@@ -216,22 +216,6 @@ TEST_F(ReadMesh, CutsHollowPolygonsWithoutLeavingThem) {
   EXPECT_NEAR(find_solids(mesh, "arrow").solids.at(0).volume, 0.5, 1e-12);
 }
 
-TEST(ReadSharedMesh, KeepsColoursAndTextures) {
-  if (!fs::exists(test::shared_mesh("Duck.glb"))) GTEST_SKIP() << "the shared meshes are not here";
-  const SurfaceMesh duck = read_mesh(test::shared_mesh("Duck.glb"));
-  EXPECT_EQ(duck.uvs.rows(), duck.positions.rows());
-  EXPECT_EQ(duck.normals.rows(), duck.positions.rows());
-  EXPECT_GT(duck.materials.at(duck.parts.at(0).material).texture.size(), 1000U);
-  EXPECT_EQ(read_mesh(test::shared_mesh("test_pos_color.ply")).colors.rows(), 114);
-  EXPECT_EQ(read_mesh(test::shared_mesh("scallop.glb")).colors.rows(), 60002);
-  EXPECT_EQ(read_mesh(test::shared_mesh("blobby-shuffled.off")).triangles.rows(), 4050);
-  EXPECT_EQ(read_mesh(test::shared_mesh("cube_gears.3mf")).parts.size(), 17U);
-  const SurfaceMesh die = read_mesh(test::shared_mesh("MUSTPASS_Chapter2.1_PartsRelationships.3mf"));
-  EXPECT_NEAR(find_solids(die, "die").solids.at(0).volume, 8000, 1e-3);
-  ASSERT_EQ(die.notes.size(), 1U);
-  EXPECT_NE(die.notes[0].find("textures of 3MF"), std::string::npos);
-}
-
 /// A zip archive of one file that is not compressed.
 std::string archive_of(const std::string& name, const std::string& text) {
   const auto number = [](std::size_t value, int bytes) {
@@ -256,19 +240,6 @@ TEST(StatedUnit, IsWhatTheFileSays) {
   EXPECT_EQ(stated_unit(folder.write("cut.3mf", "PK\3\4")), "");
   EXPECT_EQ(stated_unit("part.glb"), "m");
   EXPECT_EQ(stated_unit("part.stl"), "");
-  if (!fs::exists(test::shared_mesh("cube_gears.3mf"))) GTEST_SKIP() << "the shared meshes are not here";
-  EXPECT_EQ(stated_unit(test::shared_mesh("cube_gears.3mf")), "mm");  // a deflated one
-}
-
-TEST(ReadSharedMesh, RefusesTheMalformedOnes) {
-  if (!fs::exists(test::shared_mesh("bad"))) GTEST_SKIP() << "the shared meshes are not here";
-  expect_refusal(test::shared_mesh("bad/empty.obj"), "empty file");
-  expect_refusal(test::shared_mesh("bad/malformed.obj"), "face 1 refers to vertex 12 of 8 (index out of range)");
-  expect_refusal(test::shared_mesh("bad/inf_nan.obj"), "vertex 1 has a coordinate that is not finite");
-  expect_refusal(test::shared_mesh("bad/truncated.glb"), "file is shorter (700) than its header says (1012)");
-  expect_refusal(test::shared_mesh("bad/points.ply"), "no faces (a point cloud)");
-  expect_refusal(test::shared_mesh("bad/OutOfMemory.off"),
-                 "header declares 353535235358 vertices, more than the file can hold");
 }
 
 }  // namespace

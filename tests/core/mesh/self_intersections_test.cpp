@@ -57,13 +57,5 @@ TEST(Crossings, OfTwoBoxesThatRunIntoEachOther) {
   EXPECT_GE(found.front()[1], 12);
 }
 
-TEST(Crossings, AsManyAsAnotherProgramCounts) {
-  const auto file = test::shared_mesh("self_intersectA.obj");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not there";
-  const Solids found = find_solids(read_mesh(file), "band");
-  ASSERT_EQ(found.solids.size(), 1U);
-  EXPECT_EQ(find_self_intersections(found.solids[0].points, found.solids[0].triangles).size(), 338U);
-}
-
 }  // namespace
 }  // namespace sprung

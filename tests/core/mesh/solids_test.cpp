@@ -16,9 +16,9 @@ using test::box_mesh;
 using test::inside_out;
 using test::joined;
 
-const Vec3 kOne = Vec3::Ones();
+const Vec3 kUnitCorner = Vec3::Ones();
 
-std::string refusal(const SurfaceMesh& mesh, RepairMode repair = RepairMode::kOff) {
+std::string refusal_of_solids(const SurfaceMesh& mesh, RepairMode repair = RepairMode::kOff) {
   return error_message(ErrorKind::kBadInput, [&] { (void)find_solids(mesh, "thing.obj", {.repair = repair}); });
 }
 
@@ -41,14 +41,14 @@ double volume_of(const Solid& solid) {
 }
 
 TEST(Solids, FloatingSpecksAreDroppedAndCounted) {
-  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
+  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kUnitCorner);
   for (const double x : {2.0, 3.0}) mesh = joined(mesh, box_mesh(Vec3(x, 0, 0), Vec3(x + 0.03, 0.03, 0.03)));
   mesh = joined(mesh, box_mesh(Vec3(4, 0, 0), Vec3(4.1, 0.1, 0.1)));
   const Solids found = find_solids(mesh, "specks");
   EXPECT_EQ(found.solids.size(), 2U);
   EXPECT_TRUE(has_note(found, "dropped 2 floating specks"));
   EXPECT_EQ(find_solids(mesh, "specks", {.repair = RepairMode::kOff}).solids.size(), 4U);
-  EXPECT_NE(refusal(mesh, RepairMode::kStrict).find("2 floating specks"), std::string::npos);
+  EXPECT_NE(refusal_of_solids(mesh, RepairMode::kStrict).find("2 floating specks"), std::string::npos);
 }
 
 TEST(FindSolids, WeldsByPosition) {
@@ -60,7 +60,7 @@ TEST(FindSolids, WeldsByPosition) {
 }
 
 TEST(FindSolids, TurnsAnInsideOutSurface) {
-  const Solids found = find_solids(inside_out(box_mesh(Vec3::Zero(), kOne)), "box");
+  const Solids found = find_solids(inside_out(box_mesh(Vec3::Zero(), kUnitCorner)), "box");
   EXPECT_NEAR(volume_of(found.solids.at(0)), 1, 1e-15);
   EXPECT_TRUE(has_note(found, "inside-out"));
 }
@@ -74,7 +74,7 @@ TEST(FindSolids, TurnsSingleTrianglesToAgree) {
 }
 
 TEST(FindSolids, DropsTrianglesWithoutAreaAndRepeatedOnes) {
-  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
+  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kUnitCorner);
   mesh.triangles.conservativeResize(15, 3);
   mesh.triangles.row(12) = mesh.triangles.row(5);
   mesh.triangles.row(13) = Eigen::RowVector3i(0, 0, 4);
@@ -87,7 +87,7 @@ TEST(FindSolids, DropsTrianglesWithoutAreaAndRepeatedOnes) {
 
 TEST(FindSolids, KeepsSliversThatHoldTheSurfaceTogether) {
   // The edge 4-6 of the box gets a midpoint that only one of its two triangles has: a sliver closes the gap.
-  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
+  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kUnitCorner);
   mesh.positions.conservativeResize(9, 3);
   mesh.positions.row(8) = 0.5 * (mesh.positions.row(4) + mesh.positions.row(6));
   int split = -1;
@@ -108,7 +108,7 @@ TEST(FindSolids, KeepsSliversThatHoldTheSurfaceTogether) {
 }
 
 TEST(FindSolids, KeepsSeparatePiecesApart) {
-  const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kOne), box_mesh(Vec3(3, 0, 0), Vec3(5, 1, 1)));
+  const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kUnitCorner), box_mesh(Vec3(3, 0, 0), Vec3(5, 1, 1)));
   const Solids found = find_solids(mesh, "boxes");
   ASSERT_EQ(found.solids.size(), 2U);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 2) << "the largest comes first";
@@ -117,9 +117,9 @@ TEST(FindSolids, KeepsSeparatePiecesApart) {
 }
 
 TEST(FindSolids, GivesACavityToTheSolidAroundIt) {
-  const SurfaceMesh outer = box_mesh(Vec3::Zero(), 4 * kOne);
-  const SurfaceMesh hole = inside_out(box_mesh(kOne, 3 * kOne));
-  const SurfaceMesh stone = box_mesh(1.5 * kOne, 2.5 * kOne);
+  const SurfaceMesh outer = box_mesh(Vec3::Zero(), 4 * kUnitCorner);
+  const SurfaceMesh hole = inside_out(box_mesh(kUnitCorner, 3 * kUnitCorner));
+  const SurfaceMesh stone = box_mesh(1.5 * kUnitCorner, 2.5 * kUnitCorner);
   const Solids found = find_solids(joined(joined(hole, outer), stone), "nut");
   ASSERT_EQ(found.solids.size(), 2U);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 64 - 8);
@@ -131,7 +131,7 @@ TEST(FindSolids, GivesACavityToTheSolidAroundIt) {
 }
 
 TEST(FindSolids, UnitesASolidWithTheOneAroundItThatIsTurnedTheSameWay) {
-  const SurfaceMesh core = joined(box_mesh(Vec3::Zero(), 4 * kOne), box_mesh(kOne, 3 * kOne));
+  const SurfaceMesh core = joined(box_mesh(Vec3::Zero(), 4 * kUnitCorner), box_mesh(kUnitCorner, 3 * kUnitCorner));
   const Solids found = find_solids(core, "core");
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 64);
@@ -140,17 +140,17 @@ TEST(FindSolids, UnitesASolidWithTheOneAroundItThatIsTurnedTheSameWay) {
 }
 
 TEST(FindSolids, CountsOpenEdges) {
-  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
+  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kUnitCorner);
   mesh.triangles.conservativeResize(10, 3);
-  EXPECT_NE(refusal(mesh).find("thing.obj: the surface does not enclose a solid: 4 open edges in 1 loop"),
+  EXPECT_NE(refusal_of_solids(mesh).find("thing.obj: the surface does not enclose a solid: 4 open edges in 1 loop"),
             std::string::npos)
-      << refusal(mesh);
+      << refusal_of_solids(mesh);
 }
 
 TEST(FindSolids, CutsBoxesThatShareAnEdgeApart) {
-  const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kOne), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1)));
+  const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kUnitCorner), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1)));
   for (const SurfaceMesh& given :
-       {mesh, joined(box_mesh(Vec3::Zero(), kOne), inside_out(box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1))))}) {
+       {mesh, joined(box_mesh(Vec3::Zero(), kUnitCorner), inside_out(box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1))))}) {
     const Solids found = find_solids(given, "boxes");
     ASSERT_EQ(found.solids.size(), 2U);
     EXPECT_DOUBLE_EQ(volume_of(found.solids[0]), 1);
@@ -161,15 +161,15 @@ TEST(FindSolids, CutsBoxesThatShareAnEdgeApart) {
 
 TEST(FindSolids, RefusesWhatEnclosesNothing) {
   const SurfaceMesh flat = box_mesh(Vec3::Zero(), Vec3(1, 0, 1));
-  EXPECT_NE(refusal(flat, RepairMode::kAuto).find("flat (y extent 0)"), std::string::npos)
-      << refusal(flat, RepairMode::kAuto);
+  EXPECT_NE(refusal_of_solids(flat, RepairMode::kAuto).find("flat (y extent 0)"), std::string::npos)
+      << refusal_of_solids(flat, RepairMode::kAuto);
   Points square(4, 3);
   square << 0, 0, 0, 1, 1, 0, 1, 1, 1, 0, 0, 1;
   Triangles folded(4, 3);
   folded << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
   const SurfaceMesh sheet = test::mesh_of(square, folded);
-  EXPECT_NE(refusal(sheet, RepairMode::kAuto).find("no volume"), std::string::npos)
-      << refusal(sheet, RepairMode::kAuto);
+  EXPECT_NE(refusal_of_solids(sheet, RepairMode::kAuto).find("no volume"), std::string::npos)
+      << refusal_of_solids(sheet, RepairMode::kAuto);
 }
 
 TEST(FindSolids, HasNoAbsoluteTolerance) {

@@ -26,31 +26,6 @@ TEST(Thickness, OfABoxIsItsSides) {
   EXPECT_NEAR(surface_area(solid), 28, 1e-9);
 }
 
-class SharedThickness : public ::testing::TestWithParam<std::tuple<const char*, double, double>> {};
-
-TEST_P(SharedThickness, IsThatOfTheTable) {
-  const auto [name, thin, median] = GetParam();
-  const auto file = test::shared_mesh(name);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const SurfaceMesh mesh = read_mesh(file);
-  std::vector<WallSample> all;
-  for (const auto& some : sample_thickness(find_solids(mesh, name).solids, 20000)) {
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  const double longest = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
-  // The table is from 3,000 random points: its 1st percentile is from 30 of them.
-  EXPECT_NEAR(100 * thickness_quantile(all, 0.01) / longest, thin, 0.2 * thin + 0.05);
-  EXPECT_NEAR(100 * thickness_quantile(all, 0.5) / longest, median, 0.05 * median + 0.1);
-}
-
-INSTANTIATE_TEST_SUITE_P(Shared, SharedThickness,
-                         ::testing::Values(std::tuple("spot_triangulated.obj", 6.4, 42.9),
-                                           std::tuple("bunny.obj", 2.8, 52.0), std::tuple("eight.off", 11.9, 14.1),
-                                           std::tuple("scorpion_low_resolution.obj", 1.2, 6.0),
-                                           std::tuple("cube_gears.3mf", 0.4, 6.6), std::tuple("Duck.glb", 4.1, 53.4),
-                                           std::tuple("plate_holes.STL", 3.5, 4.2),
-                                           std::tuple("huesitos.fbx", 1.9, 34.0)));
-
 /// A block of 4 x 2 x 4 with a fin of 0.3 x 5 x 4 on it.
 SurfaceMesh block_with_fin() { return test::comb_mesh({{0, 0.3}, {4, 4.3}}, 2, 5, 4); }
 

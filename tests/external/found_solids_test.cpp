@@ -9,6 +9,7 @@
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/repair/solids.h"
 #include "core/mesh/repair/submesh.h"
+#include "tests/external/external_mesh.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {
@@ -49,15 +50,12 @@ double longest_side(const SurfaceMesh& mesh) {
   return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
 }
 
-class SharedMeshes : public ::testing::TestWithParam<const char*> {
+class ExternalMeshes : public ::testing::TestWithParam<const char*> {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(file())) GTEST_SKIP() << "the shared meshes are not here";
-  }
-  static std::filesystem::path file() { return test::shared_mesh(GetParam()); }
+  static std::filesystem::path file() { return test::external_mesh(GetParam()); }
 };
 
-class SoundMeshes : public SharedMeshes {};
+class SoundMeshes : public ExternalMeshes {};
 
 TEST_P(SoundMeshes, KeepTheirSkins) {
   const SurfaceMesh mesh = recentred(read_mesh(file()));
@@ -70,7 +68,7 @@ TEST_P(SoundMeshes, KeepTheirSkins) {
 
 INSTANTIATE_TEST_SUITE_P(All, SoundMeshes, ::testing::ValuesIn(kSound), test_name);
 
-TEST_P(SharedMeshes, AreTheSameAtAnyScale) {
+TEST_P(ExternalMeshes, AreTheSameAtAnyScale) {
   const SurfaceMesh mesh = recentred(read_mesh(file()));
   const Solids expected = find_solids(mesh, GetParam());
   for (const double scale : {1e-6, 1e6}) {
@@ -86,8 +84,8 @@ TEST_P(SharedMeshes, AreTheSameAtAnyScale) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sound, SharedMeshes, ::testing::ValuesIn(kSound), test_name);
-INSTANTIATE_TEST_SUITE_P(Mended, SharedMeshes, ::testing::ValuesIn(kMended), test_name);
+INSTANTIATE_TEST_SUITE_P(Sound, ExternalMeshes, ::testing::ValuesIn(kSound), test_name);
+INSTANTIATE_TEST_SUITE_P(Mended, ExternalMeshes, ::testing::ValuesIn(kMended), test_name);
 
 /// The fraction of the bricks' volume above a height.
 double volume_above(const BrickGrid& grid, double share_of_height) {
@@ -100,10 +98,9 @@ double volume_above(const BrickGrid& grid, double share_of_height) {
   return above / grid.volume();
 }
 
-TEST(SharedScan, EarsAndHeadNeitherFillNorLeak) {
-  const auto scan = test::shared_mesh("bun_zipper.ply");
-  const auto whole = test::shared_mesh("bunny.obj");
-  if (!std::filesystem::exists(scan)) GTEST_SKIP() << "the shared meshes are not here";
+TEST(ExternalScan, EarsAndHeadNeitherFillNorLeak) {
+  const auto scan = test::external_mesh("bun_zipper.ply");
+  const auto whole = test::external_mesh("bunny.obj");
   const SurfaceMesh mesh = read_mesh(scan);
   const SurfaceMesh sound = read_mesh(whole);
   const Solids found = find_solids(mesh, "scan");
@@ -118,17 +115,15 @@ TEST(SharedScan, EarsAndHeadNeitherFillNorLeak) {
   }
 }
 
-TEST(SharedHand, WristIsClosedFlat) {
-  const auto file = test::shared_mesh("hand_lowres.obj");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+TEST(ExternalHand, WristIsClosedFlat) {
+  const auto file = test::external_mesh("hand_lowres.obj");
   const SurfaceMesh mesh = read_mesh(file);
   const Solid solid = find_solids(mesh, "hand").solids.at(0);
   EXPECT_EQ(std::count(solid.source.begin(), solid.source.end(), -1), 14) << "16 edges and no point inside";
 }
 
-TEST(SharedGears, StayApartAtFineBricks) {
-  const auto file = test::shared_mesh("cube_gears.3mf");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+TEST(ExternalGears, StayApartAtFineBricks) {
+  const auto file = test::external_mesh("cube_gears.3mf");
   const SurfaceMesh mesh = read_mesh(file);
   const Solids found = find_solids(mesh, "gears");
   ASSERT_EQ(found.solids.size(), 17U);
@@ -137,9 +132,8 @@ TEST(SharedGears, StayApartAtFineBricks) {
   EXPECT_NEAR(volume / 1.124e5, 1, 2e-3);
 }
 
-TEST(SharedLego, IsAShellWhereAThicknessIsGiven) {
-  const auto file = test::shared_mesh("lego.ply");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+TEST(ExternalLego, IsAShellWhereAThicknessIsGiven) {
+  const auto file = test::external_mesh("lego.ply");
   const Solids found = find_solids(read_mesh(file), "lego", {.thickness = 0.02});
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_NEAR(voxelize(found.solids[0], 0.02).volume() / found.solids[0].volume, 1, 0.05);

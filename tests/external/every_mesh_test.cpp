@@ -2,36 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
-#include <set>
 
-#include "tests/support/json_number.h"
-#include "tests/support/meshes.h"
-#include "tests/support/refusal.h"
-#include "tests/support/sanitized.h"
+#include "tests/external/external_mesh.h"
+#include "tests/support/mesh_row.h"
 
-/// Every row of the table of the shared meshes, given to the built program.
+/// Every row of a table of meshes from elsewhere, given to the built program.
 namespace sprung {
 namespace {
 
-/// The properties of a shared mesh and what a good tool does with it.
-struct Row {
-  const char* file;
-  double vertices;  // 0: the file must be refused
-  double triangles;
-  bool is_closed;
-  double solids;
-  std::optional<double> volume;      // cubed units of the file
-  std::vector<std::string> repairs;  // kinds that must be named; a file without any works as it is
-  std::string words;                 // that a warning must have, or the refusal
-};
-
-void PrintTo(const Row& row, std::ostream* out) { *out << row.file; }
-
-Row refused(const char* file, std::string words) { return {file, 0, 0, false, 0, {}, {}, std::move(words)}; }
-
-const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{
+const std::vector<MeshRow>& rows() {
+  static const std::vector<MeshRow> kRows{
       {"spot_triangulated.obj", 2930, 5856, true, 1, 0.7183, {}, ""},
       {"bunny.obj", 3301, 6598, true, 1, 0.7493, {}, ""},
       {"bun_zipper.ply", 34834, 69451, false, 1, {}, {"hole_filled"}, "filled 5 holes"},
@@ -92,53 +72,15 @@ const std::vector<Row>& rows() {
   return kRows;
 }
 
-/// The kinds of repair in it that are worth a warning.
-std::set<std::string> repairs_in(const std::string& report) {
-  std::set<std::string> kinds;
-  const std::string key = "\"kind\": \"";
-  for (std::size_t at = report.find(key); at < report.find("\"bodies\""); at = report.find(key, at)) {
-    at += key.size();
-    kinds.insert(report.substr(at, report.find('"', at) - at));
-  }
-  for (const char* harmless : {"welded", "unreferenced", "cavity"}) kinds.erase(harmless);
-  return kinds;
-}
-
-class EveryMesh : public testing::TestWithParam<Row> {
+class EveryMesh : public testing::TestWithParam<MeshRow> {
  protected:
   TempFolder folder_;
 };
 
 TEST_P(EveryMesh, BehavesAsTheTableSays) {
-  const Row& row = GetParam();
-  if (!std::filesystem::exists(test::shared_mesh(row.file))) GTEST_SKIP() << "the shared meshes are not here";
-  const std::string file = std::filesystem::canonical(test::shared_mesh(row.file)).string();
-  if (row.vertices == 0) return expect_refusal(folder_, file, row.words);
-
+  const std::string file = std::filesystem::canonical(test::external_mesh(GetParam().file)).string();
   // Sanitizers make it ten times slower: then bricks are too coarse to count the solids.
-  const std::string bricks = test::kSanitized ? "16" : "48";
-  const ProgramRun made = run_program(folder_, "inspect '" + file + "' --json --resolution 160x120 --bricks " + bricks);
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  const std::string& report = made.out;
-  EXPECT_EQ(number_at(report, {"mesh", "vertices"}), row.vertices);
-  EXPECT_EQ(number_at(report, {"mesh", "triangles"}), row.triangles);
-  EXPECT_NE(report.find(row.is_closed ? "\"closed\": true" : "\"closed\": false"), std::string::npos) << report;
-  EXPECT_EQ(number_at(report, {"mesh", "solids"}), row.solids);
-  if (!test::kSanitized) {
-    EXPECT_EQ(number_at(report, {"bricks", "solids"}), row.solids) << "parts came apart, or stayed connected";
-  }
-  if (row.volume) {
-    EXPECT_NEAR(number_at(report, {"mesh", "volume"}) / *row.volume, 1, 1e-3);
-    EXPECT_NEAR(number_at(report, {"bricks", "volume"}) / *row.volume, 1, test::kSanitized ? 0.05 : 5e-3);
-  }
-  EXPECT_LT(std::abs(number_at(report, {"volume_error"})), test::kSanitized ? 0.02 : 1e-3)
-      << "the mass is density times the volume";
-  const std::set<std::string> named = repairs_in(report);
-  for (const std::string& kind : row.repairs) EXPECT_TRUE(named.contains(kind)) << kind;
-  EXPECT_EQ(named.empty(), row.repairs.empty()) << report;
-  const std::string warnings =
-      report.substr(report.find("\"warnings\""), report.find("\"bodies\"") - report.find("\"warnings\""));
-  EXPECT_NE(warnings.find(row.words), std::string::npos) << warnings;
+  expect_row(folder_, file, GetParam(), test::kSanitized ? 16 : 48);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryMesh, testing::ValuesIn(rows()), [](const auto& tested) {
