@@ -34,7 +34,7 @@ constexpr double kTraceRadius = 0.0035;  // of the largest body
 constexpr double kObstacleEdge = 0.08;   // of the largest body: light around a skin is known at its vertices
 constexpr double kMaxEdges = 60;         // across an obstacle
 constexpr double kFloorSize = 0.5;       // of the largest body: the most that a square or a board of the floor has
-constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
+constexpr double kOutOfRange = 0.01;     // fraction of the springs that may exceed the range of colours
 
 /// The default is blue in compression, red in tension, pale at rest.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
@@ -258,7 +258,7 @@ ColorRanges FilmStage::stretch_ranges() const {
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
     for (std::size_t frame = 0; frame < ranges.size(); ++frame) {
       Eigen::VectorXd stretches = springs.stretches(recording_.frames[frame][row].cast<double>()).cwiseAbs();
-      const auto rank = Eigen::Index(kUtmost * double(stretches.size()));
+      const auto rank = Eigen::Index(kOutOfRange * double(stretches.size()));
       std::nth_element(stretches.begin(), stretches.end() - 1 - rank, stretches.end());
       const double furthest = std::max(ranges[frame].high, stretches[stretches.size() - 1 - rank]);
       ranges[frame] = {-furthest, furthest};

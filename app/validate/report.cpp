@@ -22,25 +22,25 @@ namespace {
 constexpr std::size_t kMaxRows = 16;  // of a table that is not folded
 
 /// `look` is a list of classes of the style sheet.
-struct Cell {
+struct PageCell {
   std::string html{};
   std::string_view look{};
 };
 
 struct PageRow {
-  std::vector<Cell> cells{};  // a single one spans the table
+  std::vector<PageCell> cells{};  // a single one spans the table
   std::string_view look{};
 };
 
-std::string tag(std::string_view name, const Cell& cell, std::size_t span = 1) {
+std::string tag(std::string_view name, const PageCell& cell, std::size_t span = 1) {
   return fmt::format("<{0}{1}{2}>{3}</{0}>", name, cell.look.empty() ? "" : fmt::format(" class=\"{}\"", cell.look),
                      span == 1 ? "" : fmt::format(" colspan=\"{}\"", span), cell.html);
 }
 
-std::string html_table(std::string_view look, const std::vector<Cell>& head, const std::vector<PageRow>& rows) {
+std::string html_table(std::string_view look, const std::vector<PageCell>& head, const std::vector<PageRow>& rows) {
   const auto line = [&](std::string_view name, const PageRow& row) {
     std::string cells;
-    for (const Cell& cell : row.cells) cells += tag(name, cell, row.cells.size() == 1 ? head.size() : 1);
+    for (const PageCell& cell : row.cells) cells += tag(name, cell, row.cells.size() == 1 ? head.size() : 1);
     return tag("tr", {cells, row.look}) + "\n";
   };
   std::string body;
@@ -52,7 +52,7 @@ std::string html_table(std::string_view look, const std::vector<Cell>& head, con
 std::string html_table(const TextTable& table) {
   if (table.rows.empty()) return "";
   const auto cells = [](const std::vector<std::string>& words, bool is_head) {
-    std::vector<Cell> row;
+    std::vector<PageCell> row;
     row.reserve(words.size());
     for (const std::string& word : words) {
       row.push_back({escaped(is_head ? word : with_minus(word)), row.empty() ? "" : "n"});
@@ -71,10 +71,10 @@ std::string full_table(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     auto source = std::find(sources.begin(), sources.end(), source_text(check));
     if (source == sources.end()) source = sources.insert(source, source_text(check));
-    const Cell result = !check.passed()         ? Cell{"✗ fail", "v bad"}
-                        : check.is_gate()       ? Cell{"✓ pass", "v good"}
-                        : check.trouble.empty() ? Cell{"no tolerance", "v"}
-                                                : Cell{"no result", "v"};
+    const PageCell result = !check.passed()         ? PageCell{"✗ fail", "v bad"}
+                            : check.is_gate()       ? PageCell{"✓ pass", "v good"}
+                            : check.trouble.empty() ? PageCell{"no tolerance", "v"}
+                                                    : PageCell{"no result", "v"};
     rows.push_back({{{escaped(check.quantity)},
                      {escaped(check.model)},
                      {with_minus(number_text(check.poisson)), "n"},
@@ -143,7 +143,7 @@ struct Matrix {
   [[nodiscard]] bool is_useful() const { return is_unique && columns.size() > 1 && 2 * keys.size() <= cells.size(); }
 
   [[nodiscard]] std::string html() const {
-    std::vector<Cell> head{{"error"}, {"model"}};
+    std::vector<PageCell> head{{"error"}, {"model"}};
     for (const std::string& column : columns) head.push_back({escaped(column), "n"});
     std::vector<PageRow> rows;
     Key last;
@@ -163,7 +163,7 @@ struct Matrix {
            "no tolerance</p>\n";
   }
 
-  [[nodiscard]] Cell cell(const Key& key, const std::string& column) const {
+  [[nodiscard]] PageCell cell(const Key& key, const std::string& column) const {
     const auto found = cells.find({key, column});
     if (found == cells.end()) return {};
     const Check& check = *found->second;

@@ -11,12 +11,13 @@ namespace sprung {
 namespace {
 
 constexpr int kMaxSteps = 60;
-constexpr double kProbe = 1e-6;     // for the slope by central differences
-constexpr double kThickness = 0.1;  // of the beam, m
-constexpr double kLength = 0.4;     // m
-constexpr double kYoung = 1000;     // Pa; ratios of deflections do not depend on it
+constexpr double kProbe = 1e-6;      // for the slope by central differences
+constexpr double kThickness = 0.1;   // of the beam, m
+constexpr double kBeamLength = 0.4;  // m
+constexpr double kYoung = 1000;      // Pa; ratios of deflections do not depend on it
 /// rho g L^4 / (8 E I) with I = A H^2 / 12, for a weight of 1 N/m^3, m.
-constexpr double kBeamTheory = 12 * kLength * kLength * kLength * kLength / (8 * kYoung * kThickness * kThickness);
+constexpr double kBeamTheory =
+    12 * kBeamLength * kBeamLength * kBeamLength * kBeamLength / (8 * kYoung * kThickness * kThickness);
 
 /// The zero of `force` (of the sideways stretch) near `start`, by Newton's method with limited steps.
 template <class Force>

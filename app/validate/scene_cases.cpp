@@ -23,7 +23,7 @@ constexpr double kAsGood = 1e-3;             // relative difference below which 
 constexpr double kShownDisplacement = 0.15;  // over the body's size; smaller displacements are magnified in pictures
 
 /// One run of the scene.
-struct Variant {
+struct BrickVariant {
   Model model;
   double poisson;
   int bricks;
@@ -47,12 +47,12 @@ bool allows(const std::vector<Value>& list, const Value& value) {
   return list.empty() || contains(list, value);
 }
 
-bool applies(const Expectation& expectation, const Variant& variant) {
+bool applies(const Expectation& expectation, const BrickVariant& variant) {
   return allows(expectation.models, variant.model) && allows(expectation.poisson, variant.poisson) &&
          allows(expectation.bricks, variant.bricks);
 }
 
-bool applies(const Gate& gate, const Variant& variant) {
+bool applies(const Gate& gate, const BrickVariant& variant) {
   const bool has_model =
       gate.models.empty() ? variant.model == Model::kCalibrated : contains(gate.models, variant.model);
   return has_model && allows(gate.bricks, variant.bricks);
@@ -66,7 +66,7 @@ int own_bricks(const SceneBody& body) {
   return body.brick_size ? int(std::lround(longest / *body.brick_size)) : count.along;
 }
 
-Film with_variant(Film scene, const Variant& variant) {
+Film with_variant(Film scene, const BrickVariant& variant) {
   for (SceneBody& body : scene.bodies) {
     body.model = variant.model;
     body.material.poisson = variant.poisson;
@@ -77,7 +77,7 @@ Film with_variant(Film scene, const Variant& variant) {
   return scene;
 }
 
-Eigen::Vector3i grid_counts(const Film& film, const Variant& variant) {
+Eigen::Vector3i grid_counts(const Film& film, const BrickVariant& variant) {
   const SceneBody& body = film.bodies.front();
   if (!body.box) return Eigen::Vector3i::Constant(variant.bricks);
   return (*body.box * variant.bricks / body.box->maxCoeff()).array().round().cast<int>();
@@ -152,7 +152,7 @@ class Runs {
   }
 
   /// With `is_chosen`, quantities that no expectation covers are reported as well.
-  void run(const Variant& variant, bool is_chosen) {
+  void run(const BrickVariant& variant, bool is_chosen) {
     observer_.check_interrupt();
     const Outcome outcome = simulate_variant(variant);
     std::vector<std::string> seen;
@@ -199,12 +199,12 @@ class Runs {
  private:
   /// The run of a model with the smallest volume of a brick, over its volume at rest.
   struct Volume {
-    Variant variant;
+    BrickVariant variant;
     double smallest;
     double bound;
   };
 
-  Outcome simulate_variant(const Variant& variant) {
+  Outcome simulate_variant(const BrickVariant& variant) {
     const Observer silent;
     Outcome outcome;
     try {
@@ -234,12 +234,12 @@ class Runs {
     return outcome;
   }
 
-  [[nodiscard]] std::string grid_text(const Variant& variant) const {
+  [[nodiscard]] std::string grid_text(const BrickVariant& variant) const {
     const Eigen::Vector3i counts = grid_counts(scene_, variant);
     return fmt::format("{}x{}x{}", counts.x(), counts.y(), counts.z());
   }
 
-  Check& add_check(const std::string& quantity, const Variant& variant, const Outcome& outcome) {
+  Check& add_check(const std::string& quantity, const BrickVariant& variant, const Outcome& outcome) {
     Check& check = result_.checks.emplace_back();
     check.experiment = name_;
     check.quantity = quantity;
@@ -256,7 +256,7 @@ class Runs {
     return check;
   }
 
-  void add_expected(const Expectation& expectation, const Variant& variant, const Outcome& outcome) {
+  void add_expected(const Expectation& expectation, const BrickVariant& variant, const Outcome& outcome) {
     Check& check = add_check(expectation.quantity, variant, outcome);
     check.expected = expectation.value;
     check.source = expectation.source;

@@ -9,21 +9,19 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kPi = std::numbers::pi;
-
 }  // namespace
 
 Vector3f direction_of(const Panorama& panorama, int x, int y) {
-  const double around = 2 * kPi * ((x + 0.5) / panorama.width - 0.5);
-  const double down = kPi * (y + 0.5) / panorama.height;
+  const double around = 2 * std::numbers::pi * ((x + 0.5) / panorama.width - 0.5);
+  const double down = std::numbers::pi * (y + 0.5) / panorama.height;
   return Eigen::Vector3d(std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around))
       .cast<float>();
 }
 
 double solid_angle(const Panorama& panorama, int y) {
-  const double top = std::cos(kPi * y / panorama.height);
-  const double bottom = std::cos(kPi * (y + 1) / panorama.height);
-  return (top - bottom) * 2 * kPi / panorama.width;
+  const double top = std::cos(std::numbers::pi * y / panorama.height);
+  const double bottom = std::cos(std::numbers::pi * (y + 1) / panorama.height);
+  return (top - bottom) * 2 * std::numbers::pi / panorama.width;
 }
 
 Vector3f looked_up(const Panorama& panorama, const Vector3f& direction) {

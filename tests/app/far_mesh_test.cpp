@@ -4,6 +4,7 @@
 #include "app/scene/film.h"
 #include "core/bricks/voxelize.h"
 #include "core/simulation/body_source.h"
+#include "tests/support/mesh_text.h"
 #include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 
@@ -16,13 +17,6 @@ std::string obj_text(const SurfaceMesh& mesh) {
   std::string text;
   for (const auto& p : mesh.positions.rowwise()) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
   for (const auto& t : mesh.triangles.rowwise()) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
-}
-
-std::string off_text(const SurfaceMesh& mesh) {
-  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.positions.rows(), mesh.triangles.rows());
-  for (const auto& p : mesh.positions.rowwise()) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-  for (const auto& t : mesh.triangles.rowwise()) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
   return text;
 }
 

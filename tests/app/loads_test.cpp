@@ -33,7 +33,7 @@ name = "foot"
 box = { min = [0, 0, 0], max = [1, 0.01, 1] }
 )";
 
-Recording record(const std::string& text) {
+Recording recording_of(const std::string& text) {
   const Film scene = parse_scene(text, "/scene.toml");
   const Observer silent;
   Simulation simulation = prepare_simulation(scene, silent);
@@ -42,7 +42,7 @@ Recording record(const std::string& text) {
 
 std::vector<Vec3> path_of_load(const std::string& text) {
   std::vector<Vec3> positions;
-  const Recording recording = record(text);
+  const Recording recording = recording_of(text);
   for (const ProbeSample& sample : recording.probes.at(0).samples) positions.push_back(sample.displacement);
   return positions;
 }
@@ -58,9 +58,9 @@ TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
 /// Flat boxes: the cube pinned at its foot and pulled at its top, which contain no brick's middle.
 TEST(SceneLoads, FacesAreHeldAndPulled) {
   const Recording pulled =
-      record(kLoadedCube + kHeld +
-             "[[body.pin]]\nname = \"foot\"\nbox = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.force]]\n"
-             "total = [0, 1, 0]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\n[solver]\nscheme = \"linear\"\n");
+      recording_of(kLoadedCube + kHeld +
+                   "[[body.pin]]\nname = \"foot\"\nbox = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.force]]\n"
+                   "total = [0, 1, 0]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\n[solver]\nscheme = \"linear\"\n");
   EXPECT_NEAR(pulled.probes.at(1).samples.back().force.y(), -1, 1e-9);
   // sigma L / (2 E), and a little less since the top layer of bricks is pulled at its middle and held sideways below.
   EXPECT_NEAR(pulled.probes.at(0).samples.back().displacement.y(), 100 * 0.05 / 1e5, 1e-5);
@@ -85,10 +85,10 @@ TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
   for (const std::string solver :
        {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n", "scheme = \"bdf2\"\n"}) {
     const std::size_t body = kLoadedCube.find("[[body]]");
-    const Recording recording =
-        record("duration = 3\n" + kLoadedCube.substr(kLoadedCube.find("fps"), body - kLoadedCube.find("fps")) + kHeld +
-               kLoadedCube.substr(body) + kFoot + "[[body.force]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\n" +
-               "total = [0.4, 0.2, 0]\n[solver]\n" + solver);
+    const Recording recording = recording_of(
+        "duration = 3\n" + kLoadedCube.substr(kLoadedCube.find("fps"), body - kLoadedCube.find("fps")) + kHeld +
+        kLoadedCube.substr(body) + kFoot + "[[body.force]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\n" +
+        "total = [0.4, 0.2, 0]\n[solver]\n" + solver);
     const Vec3 force = recording.probes.at(1).samples.back().force;
     EXPECT_LT((force + Vec3(0.4, 0.2, 0)).norm(), 0.01) << solver << force.transpose();
   }

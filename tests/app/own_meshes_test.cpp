@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 
 #include "core/io/mesh_export.h"
 #include "tests/support/mesh_row.h"
+#include "tests/support/mesh_text.h"
 #include "tests/support/meshes.h"
 
 /// Meshes of known properties and faults, in all formats, given to the built program.
@@ -53,13 +53,6 @@ SurfaceMesh flipped(SurfaceMesh mesh, int count) {
 SurfaceMesh sheet() {
   const SurfaceMesh mesh = box_mesh(Vec3::Zero(), Vec3(1, 0, 1));
   return with_triangles(mesh, mesh.triangles.middleRows(6, 2));
-}
-
-std::string off_text(const SurfaceMesh& mesh) {
-  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.positions.rows(), mesh.triangles.rows());
-  for (const auto& x : mesh.positions.rowwise()) text += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
-  for (const auto& t : mesh.triangles.rowwise()) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
-  return text;
 }
 
 /// In the format that the name ends in.

@@ -11,11 +11,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kYoung = 2e5;
-constexpr double kPoisson = 0.3;
+constexpr double kModulus = 2e5;
+constexpr double kRatio = 0.3;
 
 Body block(const Eigen::Vector3i& counts) {
-  return make_body(make_box_grid(counts, 0.01), Model::kCalibrated, test::test_material(kPoisson, kYoung));
+  return make_body(make_box_grid(counts, 0.01), Model::kCalibrated, test::test_material(kRatio, kModulus));
 }
 
 Points moved(const Body& body, const std::function<Vec3(const Vec3&)>& displacement) {
@@ -30,8 +30,8 @@ TEST(Stress, OfAUniformStrainIsHookesEverywhere) {
   strain << 1, 0.4, -0.2, 0.4, -0.5, 0.3, -0.2, 0.3, 0.7;
   strain *= 1e-7;
   const StressTensors stresses = recover_stress(body, moved(body, [&](const Vec3& at) { return Vec3(strain * at); }));
-  const double lambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
-  const double mu = kYoung / (2 * (1 + kPoisson));
+  const double lambda = kModulus * kRatio / ((1 + kRatio) * (1 - 2 * kRatio));
+  const double mu = kModulus / (2 * (1 + kRatio));
   const Mat3 hooke = lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain;
   Eigen::Matrix<double, 1, 6> expected;
   expected << hooke(0, 0), hooke(1, 1), hooke(2, 2), hooke(0, 1), hooke(1, 2), hooke(2, 0);
@@ -48,15 +48,15 @@ TEST(Stress, OfPureBendingIsRightAtTheFaces) {
     const Vec3 middle = body.rest_positions.colwise().mean();
     const auto bend = [&](const Vec3& at) {
       const Vec3 p = at - middle;
-      return Vec3(kappa * p.x() * p.y(), -kappa / 2 * (p.x() * p.x() + kPoisson * (p.y() * p.y() - p.z() * p.z())),
-                  -kPoisson * kappa * p.y() * p.z());
+      return Vec3(kappa * p.x() * p.y(), -kappa / 2 * (p.x() * p.x() + kRatio * (p.y() * p.y() - p.z() * p.z())),
+                  -kRatio * kappa * p.y() * p.z());
     };
     const Mat3 turn = rotation_matrix({20, 30, 40});
     const StressTensors stresses = recover_stress(body, moved(body, bend) * turn.transpose());
-    const double most = kYoung * kappa * 0.005 * layers;
+    const double most = kModulus * kappa * 0.005 * layers;
     for (int node = 0; node < body.node_count(); ++node) {
       const Mat3 along =
-          turn.col(0) * turn.col(0).transpose() * kYoung * kappa * (body.rest_positions(node, 1) - middle.y());
+          turn.col(0) * turn.col(0).transpose() * kModulus * kappa * (body.rest_positions(node, 1) - middle.y());
       const Eigen::Matrix<double, 1, 6> row = stresses.row(node);
       Mat3 found;
       found << row[0], row[3], row[5], row[3], row[1], row[4], row[5], row[4], row[2];
@@ -77,9 +77,9 @@ TEST(Stress, OfSmallStrainsIsLinearInTheDisplacements) {
   };
   const StressTensors small = at(1e-3);
   EXPECT_LT((at(1) / 1e3 - small).cwiseAbs().maxCoeff(), 1e-6 * small.cwiseAbs().maxCoeff());
-  const double shear = kYoung / (1 + kPoisson);
+  const double shear = kModulus / (1 + kRatio);
   EXPECT_NEAR(small(0, 0) - small(0, 1), 1e-3 * shear * 0.03, 1e-6 * shear);
-  EXPECT_NEAR(small(0, 3), 0, 1e-9 * kYoung);
+  EXPECT_NEAR(small(0, 3), 0, 1e-9 * kModulus);
 }
 
 TEST(Stress, PrincipalOnesComeLargestFirstWithTheirDirections) {

@@ -33,7 +33,7 @@ Vec3 angular_momentum_of(const World& world) {
   return sum;
 }
 
-double energy(const World& world) {
+double total_energy(const World& world) {
   double sum = 0;
   for (const SoftBody& body : world.bodies) sum += energy_of(body, world.gravity).sum();
   return sum;
@@ -62,12 +62,12 @@ TEST(SkinContact, CollisionKeepsMomentumAndMakesNoEnergy) {
   world.bodies[1].velocities.col(0).setConstant(-0.5);
   const Vec3 momentum = momentum_of(world);
   const Vec3 turning = angular_momentum_of(world);
-  const double before = energy(world);
+  const double before = total_energy(world);
   run(world, 0.3);
   const double scale = world.bodies[0].masses.sum();
   EXPECT_LT((momentum_of(world) - momentum).norm(), 1e-9 * momentum.norm());
   EXPECT_LT((angular_momentum_of(world) - turning).norm(), 1e-3 * scale * 0.1);
-  EXPECT_LT(energy(world), before * (1 + 1e-6));
+  EXPECT_LT(total_energy(world), before * (1 + 1e-6));
   EXPECT_LT(centre_of(world.bodies[0]).x(), centre_of(world.bodies[1]).x());
   EXPECT_LT(linear_momentum(world.bodies[0]).x() / scale, 0.5);  // it has been stopped
 }
@@ -158,12 +158,12 @@ TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
   body.velocities.col(0) *= 0.2;
   body.damping.beta = 2e-3;
   stiffen_volume_guard(body, world.gravity.norm(), impact_speed(world));
-  double before = energy(world);
+  double before = total_energy(world);
   for (int frame = 0; frame < 40; ++frame) {
     run(world, 0.7, 1 / 0.7);
-    EXPECT_LT(energy(world), 1.01 * before) << frame;
+    EXPECT_LT(total_energy(world), 1.01 * before) << frame;
     EXPECT_EQ(inverted_bricks(body), 0) << frame;
-    before = energy(world);
+    before = total_energy(world);
   }
   EXPECT_TRUE(is_crushed(body));
 }
