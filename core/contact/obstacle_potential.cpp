@@ -45,7 +45,7 @@ ObstaclePotential::ObstaclePotential(SoftBody& body, const Obstacle& obstacle, d
       skin_(contact_surface_of(body)),
       slip_speed_(slip_speed),
       points_(skin_.points.size()),
-      query_(skin_.bricks.size()) {
+      queries_(skin_.bricks.size()) {
   const std::vector<double> stiffness = contact_stiffness(body, skin_);
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = stiffness[p];
 }
@@ -59,7 +59,7 @@ bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
   const double reach = box.diagonal().norm();
   const Vec3 middle = pose_.rotation.transpose() * (box.center() - pose_.translation);
-  GapQuery& query = query_[brick];
+  GapQuery& query = queries_[brick];
   if (query.distance - (middle - query.position).norm() > reach) return true;
   query = {.position = middle, .distance = signed_distance(obstacle_.shape, {}, middle).distance};
   return query.distance > reach;

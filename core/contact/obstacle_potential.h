@@ -96,10 +96,10 @@ class ObstaclePotential {
   const Obstacle& obstacle_;
   const ContactSurface& skin_;
   double slip_speed_;
-  double slip_ = 0;              // m
-  Pose pose_;                    // at the end of the step
-  std::vector<Point> points_;    // of the skin
-  std::vector<GapQuery> query_;  // of the skin's bricks
+  double slip_ = 0;                // m
+  Pose pose_;                      // at the end of the step
+  std::vector<Point> points_;      // of the skin
+  std::vector<GapQuery> queries_;  // of the skin's bricks
 };
 
 }  // namespace sprung

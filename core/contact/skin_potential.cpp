@@ -60,13 +60,13 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
 }
 
 void SkinPotential::refresh() {
-  if (!actives_.empty()) {
+  if (!contacts_.empty()) {
     for (Watch& watch : watches_) watch.penetrations = 0;
   }
-  for (const ActiveContact& active : actives_) {
+  for (const ActiveContact& active : contacts_) {
     if (!active.is_glue) watches_[active.watch].penetrations = depth(active, sum(active.coupling, false));
   }
-  actives_.clear();
+  contacts_.clear();
   add_glue();
   for (ContactCandidates& pairs : pairs_) pairs.follow(group_);
   for (std::size_t i = 0; i < watches_.size(); ++i) {
@@ -88,12 +88,12 @@ void SkinPotential::add_glue() {
     }
     const double stiffness =
         glue_stiffness(*group_[point.bodies[0]], point.bricks[0], *group_[point.bodies[1]], point.bricks[1]);
-    actives_.push_back({.watch = 0,
-                        .is_glue = true,
-                        .coupling = std::move(coupling),
-                        .stiffness = stiffness,
-                        .normal = Vec3::Zero(),
-                        .start = Vec3::Zero()});
+    contacts_.push_back({.watch = 0,
+                         .is_glue = true,
+                         .coupling = std::move(coupling),
+                         .stiffness = stiffness,
+                         .normal = Vec3::Zero(),
+                         .start = Vec3::Zero()});
   }
 }
 
@@ -111,12 +111,12 @@ void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& s
   const double stiffness =
       pair_stiffness(watches_[watch].stiffness, *group_[point.body], at.brick, *group_[other], stencil.bricks[0]);
   const Vec3 start = sum(coupling, true);
-  actives_.push_back({.watch = watch,
-                      .is_glue = false,
-                      .coupling = std::move(coupling),
-                      .stiffness = stiffness,
-                      .normal = stance.normal,
-                      .start = start});
+  contacts_.push_back({.watch = watch,
+                       .is_glue = false,
+                       .coupling = std::move(coupling),
+                       .stiffness = stiffness,
+                       .normal = stance.normal,
+                       .start = start});
 }
 
 Vec3 SkinPotential::sum(const Coupling& coupling, bool at_start) const {
@@ -137,7 +137,7 @@ void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& penetrations) 
   for (std::size_t i = 0; i < group_.size(); ++i) {
     penetrations[i]->setZero(skins_[i]->points.size());
   }
-  for (const ActiveContact& active : actives_) {
+  for (const ActiveContact& active : contacts_) {
     if (active.is_glue) continue;
     const ContactCandidates& pairs = *watches_[active.watch].pairs;
     const TrackedPoint& point = pairs.tracked(watches_[active.watch].pair->point);
@@ -149,7 +149,7 @@ void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& penetrations) 
 double SkinPotential::update_friction() {
   double change = 0;
   std::vector<double> normal_force(watches_.size());
-  for (const ActiveContact& active : actives_) {
+  for (const ActiveContact& active : contacts_) {
     if (active.is_glue) continue;
     normal_force[active.watch] = active.stiffness * depth(active, sum(active.coupling, false));
   }
@@ -173,7 +173,7 @@ FrictionPotential SkinPotential::friction_at(const ActiveContact& active, const 
 
 double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
   double energy = 0;
-  for (const ActiveContact& active : actives_) {
+  for (const ActiveContact& active : contacts_) {
     const Vec3 now = sum(active.coupling, false);
     Vec3 force;
     if (active.is_glue) {
@@ -199,7 +199,7 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
 
 std::vector<Coupling> SkinPotential::couplings() const {
   std::vector<Coupling> couplings;
-  for (const ActiveContact& active : actives_) {
+  for (const ActiveContact& active : contacts_) {
     const Vec3 now = sum(active.coupling, false);
     Mat3 stiffness = Mat3::Zero();
     if (active.is_glue) {

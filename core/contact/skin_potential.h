@@ -85,7 +85,7 @@ class SkinPotential {
   std::vector<Points> starts_;                // by body, m x 3, m
   std::list<ContactCandidates> pairs_;
   std::vector<Watch> watches_;
-  std::vector<ActiveContact> actives_;
+  std::vector<ActiveContact> contacts_;
 };
 
 }  // namespace sprung

@@ -98,7 +98,7 @@ SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
   own_motions_.resize(nodes_.size());
   boxes_.resize(nodes_.size());
   cones_.resize(nodes_.size());
-  places_.resize(skin.points.size());
+  positions_.resize(skin.points.size());
   normals_.resize(skin.points.size());
   velocities_.resize(skin.points.size());
 }
@@ -212,8 +212,8 @@ void SurfaceTree::measure_own(const Points& moved, const Points& moving) {
   measure(own_moved, own_moving, turning.spin.squaredNorm() * std::sqrt(furthest) / 2, own_motions_);
 }
 
-void SurfaceTree::find_place(int point) {
-  places_[point] = {carried(body_, skin_.points[point], body_.positions), step_};
+void SurfaceTree::find_position(int point) {
+  positions_[point] = {carried(body_, skin_.points[point], body_.positions), step_};
 }
 
 const Vec3& SurfaceTree::normal_of(int point) {

@@ -83,8 +83,8 @@ class SurfaceTree {
   [[nodiscard]] const NormalCone& cone(int node);
   /// The current position of a contact point, m, and the normal of the skin there, unit.
   [[nodiscard]] const Vec3& position_of(int point) {
-    if (places_[point].step != step_) find_place(point);
-    return places_[point].value;
+    if (positions_[point].step != step_) find_position(point);
+    return positions_[point].value;
   }
   [[nodiscard]] const Vec3& normal_of(int point);
   [[nodiscard]] const Vec3& velocity_of(int point) {
@@ -101,7 +101,7 @@ class SurfaceTree {
   using Features = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   void add_node(int first, int last, int cluster, const Features& features);
   void list_nodes_of_clusters();
-  void find_place(int point);
+  void find_position(int point);
   void find_velocity(int point);
   /// Of the segment from `start` to `end` with the triangles of a subtree.
   [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
@@ -131,7 +131,7 @@ class SurfaceTree {
   long velocity_step_ = 0;
   std::vector<Cached<AlignedBox>> boxes_;  // by node
   std::vector<Cached<NormalCone>> cones_;
-  std::vector<Cached<Vec3>> places_;  // by point
+  std::vector<Cached<Vec3>> positions_;  // by point
   std::vector<Cached<Vec3>> normals_;
   std::vector<Cached<Vec3>> velocities_;
 };
