@@ -13,7 +13,6 @@ namespace {
 constexpr int kMaxSweeps = 30;
 constexpr int kMaxSweepsWithInversions = 100;  // rare, and their errors grow
 constexpr double kTolerance = 1e-4;            // bricks that a point may miss its constraint by in a step
-constexpr double kMinFree = 0.05;              // of a contact's weights: what pinned nodes carry cannot be moved
 
 double dot(double a, double b) { return a * b; }
 double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }

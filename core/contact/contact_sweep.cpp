@@ -13,7 +13,6 @@ namespace {
 constexpr double kApproach = 0.5;         // of the way to the contact distance, by which features may approach per step
 constexpr double kRecovery = 0.05;        // of the excess approach, that they separate per step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
-constexpr double kMinFreeShare = 0.05;    // of a contact's weights: the share of pinned nodes cannot be moved
 constexpr double kYield = 0.2;            // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 
@@ -89,7 +88,7 @@ void ContactSweep::finish_row(Row row) {
     free += std::abs(parts_[i].weight);
     row.inverse_mass += parts_[i].weight * parts_[i].weight * parts_[i].inverse_mass;
   }
-  if (free > kMinFreeShare && row.inverse_mass > 0) {
+  if (free > kMinFree && row.inverse_mass > 0) {
     rows_.push_back(row);
   } else {
     row.impulse->setZero();

@@ -55,6 +55,8 @@ void add_shares(const Group& group, std::size_t body, int brick, const CornerWei
 
 /// m/s^2: penetrations are resolved without gravity as well.
 inline constexpr double kMinGravity = 0.1;
+/// Of a contact's weights: what pinned nodes carry cannot be moved.
+inline constexpr double kMinFree = 0.05;
 
 /// The least speed of a point along the normal, relative to the other surface, m/s: in a step it may approach until it
 /// touches. A point inside (gap < 0, m) is moved out within about twenty steps, but no faster than a throw that would

@@ -17,26 +17,8 @@ using test::joined;
 
 SurfaceMesh ring() { return test::torus_mesh(2, 0.7, 48, 24); }
 
-/// Of a closed surface, by the divergence theorem.
-double volume_of(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (int t = 0; t < mesh.triangles.rows(); ++t) {
-    const Vec3 a = mesh.positions.row(mesh.triangles(t, 0));
-    const Vec3 b = mesh.positions.row(mesh.triangles(t, 1));
-    const Vec3 c = mesh.positions.row(mesh.triangles(t, 2));
-    sum += a.cross(b).dot(c) / 6;
-  }
-  return sum;
-}
-
 SurfaceMesh with_triangles(const SurfaceMesh& mesh, const Triangles& triangles) {
   return test::mesh_of(mesh.positions, triangles);
-}
-
-SurfaceMesh without_rows(const SurfaceMesh& mesh, int first, int count) {
-  Triangles kept(mesh.triangles.rows() - count, 3);
-  kept << mesh.triangles.topRows(first), mesh.triangles.bottomRows(mesh.triangles.rows() - first - count);
-  return with_triangles(mesh, kept);
 }
 
 SurfaceMesh with_rows(const SurfaceMesh& mesh, const Triangles& more) {
@@ -84,7 +66,7 @@ OwnMesh text(const MeshRow& row, const std::string& bytes) {
 }
 
 std::vector<OwnMesh> own_meshes() {
-  const double ring_volume = volume_of(ring());
+  const double ring_volume = test::signed_volume(ring().positions, ring().triangles);
   const SurfaceMesh cube = box_mesh(Vec3::Zero(), Vec3::Ones());
   const SurfaceMesh apart = joined(cube, box_mesh(Vec3(2, 0, 0), Vec3(3, 1, 1)));
   const SurfaceMesh through = joined(cube, box_mesh(Vec3(0.5, 0.25, 0.25), Vec3(1.5, 0.75, 0.75)));
@@ -94,7 +76,8 @@ std::vector<OwnMesh> own_meshes() {
       own({"inside_out.ply", 1152, 2304, true, 1, ring_volume, {"inside_out"}, "outwards"}, test::inside_out(ring())),
       own({"some_flipped.off", 1152, 2304, true, 1, ring_volume, {"oriented"}, "to agree with their neighbours"},
           flipped(ring(), 40)),
-      own({"hole.stl", 1152, 2300, false, 1, {}, {"hole_filled"}, "filled 1 hole"}, without_rows(ring(), 100, 4)),
+      own({"hole.stl", 1152, 2300, false, 1, {}, {"hole_filled"}, "filled 1 hole"},
+          test::without_triangles(ring(), 100, 4)),
       own({"doubled.off", 1152, 2307, true, 1, ring_volume, {"duplicate"}, "repeated"},
           with_rows(ring(), ring().triangles.topRows(3))),
       own({"degenerate.off", 1152, 2306, true, 1, ring_volume, {"degenerate"}, "without area"},

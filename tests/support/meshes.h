@@ -76,6 +76,25 @@ inline SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b) {
   return mesh_of(std::move(positions), std::move(triangles));
 }
 
+/// Without `count` triangles from row `first` on.
+inline SurfaceMesh without_triangles(const SurfaceMesh& mesh, int first, int count) {
+  Triangles left(mesh.triangles.rows() - count, 3);
+  left << mesh.triangles.topRows(first), mesh.triangles.bottomRows(mesh.triangles.rows() - first - count);
+  return mesh_of(mesh.positions, left);
+}
+
+/// Of a closed surface, positive if it is outward.
+inline double signed_volume(const Points& positions, const Triangles& triangles) {
+  double sum = 0;
+  for (const auto& corners : triangles.rowwise()) {
+    const Vec3 a = positions.row(corners[0]);
+    const Vec3 b = positions.row(corners[1]);
+    const Vec3 c = positions.row(corners[2]);
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
 inline SurfaceMesh inside_out(SurfaceMesh mesh) {
   mesh.triangles.col(1).swap(mesh.triangles.col(2));
   return mesh;

@@ -11,8 +11,8 @@ namespace sprung {
 //   SceneMotion            splits the frame where pins, loads or gravity change, and moves the obstacles
 //     AdaptiveIntegrator     finds contact groups and their steps; checks the frame, and repeats it with half the step
 //       advance()              runs the groups in parallel, a chunk of steps at a time
-//         GroupStepper             kick, contact, drift: one step of one group
-//           BodyStepper                  springs, damping, loads and pins of one body
+//         GroupStepper           kick, contact, drift: one step of one group
+//           BodyStepper            springs, damping, loads and pins of one body
 //           ContactSolver          contact by projected gradients, or ...
 //           SweptContacts          ... by one sweep and a guarantee (World::guards_crossings)
 

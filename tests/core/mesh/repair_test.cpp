@@ -21,18 +21,13 @@ namespace {
 using test::box_mesh;
 using test::inside_out;
 using test::joined;
+using test::without_triangles;
 
 const Vec3 kOne = Vec3::Ones();
 const double kTorusVolume = 2 * std::numbers::pi * std::numbers::pi * 2 * 0.5 * 0.5;
 
 std::string refusal(const SurfaceMesh& mesh, const SolidOptions& options = {}) {
   return error_message(ErrorKind::kBadInput, [&] { (void)find_solids(mesh, "thing.obj", options); });
-}
-
-SurfaceMesh without_triangles(SurfaceMesh mesh, int first, int count) {
-  Triangles left(mesh.triangles.rows() - count, 3);
-  left << mesh.triangles.topRows(first), mesh.triangles.bottomRows(mesh.triangles.rows() - first - count);
-  return test::mesh_of(mesh.positions, left);
 }
 
 /// Heights over a square of 1, 20 x 20 squares.

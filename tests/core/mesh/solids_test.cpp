@@ -28,18 +28,6 @@ bool has_note(const Solids& found, const std::string& text) {
                      [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 
-/// The signed volume of a solid's own triangles.
-double volume_of(const Solid& solid) {
-  double sum = 0;
-  for (int t = 0; t < solid.triangles.rows(); ++t) {
-    const Vec3 a = solid.points.row(solid.triangles(t, 0));
-    const Vec3 b = solid.points.row(solid.triangles(t, 1));
-    const Vec3 c = solid.points.row(solid.triangles(t, 2));
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
 TEST(Solids, FloatingSpecksAreDroppedAndCounted) {
   SurfaceMesh mesh = box_mesh(Vec3::Zero(), kUnitCorner);
   for (const double x : {2.0, 3.0}) mesh = joined(mesh, box_mesh(Vec3(x, 0, 0), Vec3(x + 0.03, 0.03, 0.03)));
@@ -61,7 +49,7 @@ TEST(FindSolids, WeldsByPosition) {
 
 TEST(FindSolids, TurnsAnInsideOutSurface) {
   const Solids found = find_solids(inside_out(box_mesh(Vec3::Zero(), kUnitCorner)), "box");
-  EXPECT_NEAR(volume_of(found.solids.at(0)), 1, 1e-15);
+  EXPECT_NEAR(test::signed_volume(found.solids.at(0).points, found.solids.at(0).triangles), 1, 1e-15);
   EXPECT_TRUE(has_note(found, "inside-out"));
 }
 
@@ -69,7 +57,8 @@ TEST(FindSolids, TurnsSingleTrianglesToAgree) {
   SurfaceMesh mesh = test::torus_mesh(2, 0.5);
   for (int t = 0; t < mesh.triangles.rows(); t += 3) std::swap(mesh.triangles(t, 0), mesh.triangles(t, 1));
   const Solids found = find_solids(mesh, "torus");
-  EXPECT_NEAR(volume_of(found.solids.at(0)), find_solids(test::torus_mesh(2, 0.5), "torus").solids.at(0).volume, 1e-12);
+  EXPECT_NEAR(test::signed_volume(found.solids.at(0).points, found.solids.at(0).triangles),
+              find_solids(test::torus_mesh(2, 0.5), "torus").solids.at(0).volume, 1e-12);
   EXPECT_TRUE(has_note(found, "turned 3072 triangles"));
 }
 
@@ -123,7 +112,7 @@ TEST(FindSolids, GivesACavityToTheSolidAroundIt) {
   const Solids found = find_solids(joined(joined(hole, outer), stone), "nut");
   ASSERT_EQ(found.solids.size(), 2U);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 64 - 8);
-  EXPECT_NEAR(volume_of(found.solids[0]), 64 - 8, 1e-12);
+  EXPECT_NEAR(test::signed_volume(found.solids[0].points, found.solids[0].triangles), 64 - 8, 1e-12);
   EXPECT_DOUBLE_EQ(found.solids[1].volume, 1);
   const Solids flipped = find_solids(inside_out(joined(joined(hole, outer), stone)), "nut");
   EXPECT_DOUBLE_EQ(flipped.solids.at(0).volume, 64 - 8);
@@ -153,8 +142,8 @@ TEST(FindSolids, CutsBoxesThatShareAnEdgeApart) {
        {mesh, joined(box_mesh(Vec3::Zero(), kUnitCorner), inside_out(box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1))))}) {
     const Solids found = find_solids(given, "boxes");
     ASSERT_EQ(found.solids.size(), 2U);
-    EXPECT_DOUBLE_EQ(volume_of(found.solids[0]), 1);
-    EXPECT_DOUBLE_EQ(volume_of(found.solids[1]), 1);
+    EXPECT_DOUBLE_EQ(test::signed_volume(found.solids[0].points, found.solids[0].triangles), 1);
+    EXPECT_DOUBLE_EQ(test::signed_volume(found.solids[1].points, found.solids[1].triangles), 1);
     EXPECT_TRUE(has_note(found, "1 edge with more than two triangles"));
   }
 }
