@@ -16,10 +16,9 @@ constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall 
 constexpr double kYield = 0.2;            // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 
-/// The least speed (m/s) along the normal of two features whose contact keeps them `reach` (m) apart, if they move at
-/// `speed` (m/s).
-double min_speed(const AwakePair& pair, double reach, double speed, double gravity, double dt) {
-  const double rest = pair.gap - reach;
+/// The least speed (m/s) along the normal of two features in contact, if they move at `speed` (m/s).
+double min_speed(const AwakePair& pair, double speed, double gravity, double dt) {
+  const double rest = pair.gap - pair.reach;
   if (pair.restitution > 0 && speed < 0) return rest + speed * dt > 0 ? speed : -pair.restitution * speed;
   if (rest > 0) return -kApproach * rest / dt;
   return std::min(-kRecovery * rest / dt, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kMinGravity) * rest));
@@ -104,16 +103,15 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
       if (pair.is_loaded) pair.impulse->setZero();
       continue;
     }
-    const double reach = (pair.pair.count == 1 ? kGuardedGap : kGuardedEdges) * near.brick();
     double speed = 0;
     for (int corner = 0; corner < 4 && (!are_loaded || pair.restitution > 0); ++corner) {
       if (pair.weights[corner] != 0) {
         speed += pair.weights[corner] * pair.normal.dot(near.known_velocity(pair, corner));
       }
     }
-    const double least = min_speed(pair, reach, speed, gravity, dt);
+    const double least = min_speed(pair, speed, gravity, dt);
     const bool is_held = is_supported_at_node(near, pair, !are_loaded);
-    if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kBorne * reach))) continue;
+    if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kBorne * pair.reach))) continue;
     Row row{.first = parts_.size(),
             .last = 0,
             .normal = pair.normal,

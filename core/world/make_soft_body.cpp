@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/query/closest_triangle.h"
 #include "core/mesh/repair/coarsen.h"
 #include "core/mesh/repair/submesh.h"
 #include "core/mesh/repair/weld.h"
@@ -44,6 +45,14 @@ double thickness_of(const Points& points, const Triangles& triangles) {
   return area > 0 ? 2 * std::abs(volume) / area : 0;
 }
 
+/// By point of a skin: the row of the triangle of its coarse surface that is nearest to it.
+std::vector<int> triangles_beneath(const CoarseSurface& surface, const Points& skin) {
+  const NearestTriangle nearest(surface.points, surface.triangles);
+  std::vector<int> rows;
+  for (const auto& point : skin.rowwise()) rows.push_back(nearest.at(point.transpose()).triangle);
+  return rows;
+}
+
 /// Makes the contact points: each position that triangles use, once, no finer than the bricks can follow.
 void add_contacts(const Skin& skin, SoftBody& body) {
   const std::vector<int> point_of = weld_points(skin.positions);
@@ -62,6 +71,10 @@ void add_contacts(const Skin& skin, SoftBody& body) {
   const CoarseSurface surface = coarsen(points, triangles, shortest);
   body.contact.points = embed(body.grid, surface.points, outward_at(surface.points, surface.triangles));
   body.contact.triangles = surface.triangles;
+  if (surface.triangles.rows() == triangles.rows()) return;  // nothing was collapsed
+  const std::vector<int> beneath = triangles_beneath(surface, points);
+  body.contact.beneath.assign(point_of.size(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) body.contact.beneath[rows[i]] = beneath[i];
 }
 
 }  // namespace

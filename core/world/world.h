@@ -27,6 +27,7 @@ struct KinematicNode {
 struct ContactSkin {
   Embedding points{};                               // each position once
   Triangles triangles{};                            // rows of points; none: contact with obstacles only
+  std::vector<int> beneath{};                       // by vertex of what is drawn: the triangle under it; -1, or none
   std::shared_ptr<const ContactSurface> surface{};  // of these, when first used; see there
   std::shared_ptr<const ContactSurface> outline{};  // of what is drawn, likewise
   double friction = 0.5;                            // on another body: the geometric mean of both

@@ -30,6 +30,25 @@ position = [0, 0.05, 0]
 plane = {}
 )";
 
+/// Two bodies of coarse bricks meet, whose drawn skins are above their contact skins, the more the more they bend.
+constexpr const char* kMeeting = R"(duration = 0.06
+fps = 200
+gravity = [0, 0, 0]
+[[body]]
+sphere = { radius = "2.2 cm" }
+position = [0, 0, 0]
+velocity = [0, 0, 1.4]
+bricks = 6
+material = { young = "25 kPa", poisson = 0.3, density = 900, damping = 0.12 }
+[[body]]
+torus = { radius = "1.7 cm", tube = "8 mm" }
+position = [0.012, 0.006, 0.06]
+rotation = [60, 20, 0]
+velocity = [0, 0, -1.4]
+bricks = 6
+material = { young = "40 kPa", poisson = 0.3, density = 900, damping = 0.12 }
+)";
+
 class CrossingsOfARun : public testing::Test {
  protected:
   [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, words); }
@@ -127,6 +146,15 @@ TEST(CrossingWatch, LooksBelowPlanesAndNotAtBodiesThatMayCross) {
   const Crossings below = watch.look({&nodes[0], &nodes[1]}, 2, 0);
   EXPECT_NEAR(below.depth, 0.003, 1e-9);
   EXPECT_EQ(below.names, "body 1 and obstacle 1");
+}
+
+TEST_F(CrossingsOfARun, AreNoneOfWhatIsDrawnWhereCoarseBodiesMeet) {
+  const std::filesystem::path scene = folder_.write("meeting.toml", kMeeting);
+  const ProgramRun made = run("simulate " + scene.filename().string() + " -o run.h5 --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  int crossing = 0;
+  for (const json& frame : json::parse(made.out)["crossings"]) crossing += frame["crossing_pairs"].get<int>();
+  EXPECT_EQ(crossing, 0);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct AwakePair {
   double gap;                            // m; negative: the point lies inside, and the normal leads out
   Eigen::Vector4d weights;               // see FeatureDistance
   Vec3 obstacle_velocity{Vec3::Zero()};  // m/s, there, of one without edges
+  double reach = 0;                      // m, the gap at which contact keeps them
   double friction = 0;                   // Coulomb's coefficient
   double restitution = 0;
   bool may_support = true;  // false if another pair supports the same point better

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/contact/pairs/closest_features.h"
 #include "core/contact/search/segment_crossing.h"
@@ -133,6 +134,18 @@ void FeaturePairs::list_edges(int edges_of, int others_of, NearList& list) {
   }
 }
 
+double FeaturePairs::reach_of(const FeaturePair& pair) {
+  const auto height_at = [&](int first, int last) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int i = first; i < last; ++i) {
+      lowest = std::min(lowest, tree(pair.side(i)).height_about(pair.corners[i]));
+    }
+    return lowest;
+  };
+  const double gap = (pair.count == 1 ? kGuardedGap : kGuardedEdges) * brick_;
+  return gap + height_at(0, pair.count) + height_at(pair.count, 4);
+}
+
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
   std::array<Vec3, 4> x;
   for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).position_of(pair.corners[i]);
@@ -144,6 +157,7 @@ AwakePair FeaturePairs::measure(const FeaturePair& pair) {
                      .normal = found.apart / std::max(gap, 1e-300),
                      .gap = gap,
                      .weights = found.weights,
+                     .reach = reach_of(pair),
                      .friction = friction_};
   if (gap < kTouching * brick_) measured.normal = normal_of_touching(measured);
   return measured;
@@ -236,7 +250,7 @@ long& FeaturePairs::loaded_at(const AwakePair& pair) {
 bool FeaturePairs::may_skip(const AwakePair& pair, const Woken& woken) {
   if (pair.pair.count == 2) return false;
   if (!pair.may_support) return pair.gap < 0 || woken.coming < kStill * pair.gap;
-  if (pair.is_loaded || pair.gap < kBorne * kGuardedGap * brick_) return false;
+  if (pair.is_loaded || pair.gap < kBorne * pair.reach) return false;
   if (loaded_at(pair) != step_) return false;
   if (!(woken.coming < kSkipped * pair.gap)) return false;
   woken.sleeper->wake += kSkipped * pair.gap;
@@ -248,8 +262,7 @@ bool FeaturePairs::stays_apart(Sleeper& sleeper, double closer, double coming) {
   const FeaturePair& pair = sleeper.pair;
   Eigen::Vector4d heights;
   for (int i = 0; i < 4; ++i) heights[i] = sleeper.normal.dot(tree(pair.side(i)).position_of(pair.corners[i]));
-  const double reach = pair.count == 1 ? kGuardedGap : kGuardedEdges;
-  const double way = distance_until_due(-closing_speed(pair, heights), reach * brick_, brick_);
+  const double way = distance_until_due(-closing_speed(pair, heights), reach_of(pair), brick_);
   if (way > coming) {
     sleeper.wake = closer + way;
     return true;
@@ -262,8 +275,8 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   if (stays_apart(sleeper, closer, coming)) return;
   AwakePair pair = measure(sleeper.pair);
   const bool is_point = pair.pair.count == 1;
-  const double reach = is_point ? kGuardedGap : is_at_end(pair) ? 0 : kGuardedEdges;
-  const double way = distance_until_due(pair.gap, reach * brick_, brick_);
+  const double reach = !is_point && is_at_end(pair) ? 0 : pair.reach;
+  const double way = distance_until_due(pair.gap, reach, brick_);
   if (is_point) {
     sleeper.is_inside = is_inside(pair);
     orient(pair, sleeper.is_inside);

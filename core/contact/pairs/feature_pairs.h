@@ -76,6 +76,8 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] AlignedBox find_boxes(SurfaceTree& tree, const std::vector<Feature>& features, int first, int last);
   void list_points(std::size_t side, int points_of, int triangles_of, NearList& list);
   void list_edges(int edges_of, int others_of, NearList& list);
+  /// The gap (m) at which contact keeps two features: so that what is drawn at them keeps off too.
+  [[nodiscard]] double reach_of(const FeaturePair& pair);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
   /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
   /// of its last if it is 2.

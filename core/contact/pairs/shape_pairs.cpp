@@ -131,6 +131,7 @@ void ShapePairs::measure(const Obstacle& obstacle, const Pose& pose, std::vector
                      .gap = gap.distance,
                      .weights = {1, -1, 0, 0},
                      .obstacle_velocity = velocity_at(obstacle, pose, position),
+                     .reach = kGuardedGap * brick_,
                      .friction = obstacle.friction,
                      .restitution = obstacle.restitution,
                      .impulse = &impulses_[point],

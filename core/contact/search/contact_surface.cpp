@@ -22,6 +22,13 @@ std::vector<int> starts_of(const std::vector<int>& values, const std::vector<int
   return first;
 }
 
+ContactPoint point_at(const Embedding& embedding, int row) {
+  const auto weights = trilinear_weights(embedding.local.row(row));
+  int corner = 0;
+  weights.maxCoeff(&corner);
+  return {embedding.brick[row], corner, weights};
+}
+
 NormalCone cone_of(const Points& normals) {
   const Vec3 sum = normals.colwise().sum();
   if (!(sum.norm() > 0)) return {Vec3::UnitX(), std::numbers::pi};
@@ -90,9 +97,11 @@ std::vector<std::vector<int>> connected_among(const std::vector<int>& bricks, co
 
 }  // namespace
 
-ContactSurface::ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners) {
-  add_triangles(body, corners, add_points(embedding));
+ContactSurface::ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners,
+                               const Embedding& skin, const std::vector<int>& beneath) {
+  const std::vector<int> triangle_of = add_triangles(body, corners, add_points(embedding));
   add_edges();
+  add_skin(skin, beneath, triangle_of);
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
@@ -109,10 +118,7 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   std::vector<int> brick_of_point;
   for (const int row : order) {
     point_of[row] = isize(points);
-    const auto weights = trilinear_weights(embedding.local.row(row));
-    int corner = 0;
-    weights.maxCoeff(&corner);
-    points.push_back({brick_of(row), corner, weights});
+    points.push_back(point_at(embedding, row));
     brick_of_point.push_back(brick_of(row));
     if (bricks.empty() || bricks.back() != brick_of(row)) bricks.push_back(brick_of(row));
   }
@@ -120,13 +126,20 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   return point_of;
 }
 
-void ContactSurface::add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& point_of) {
-  for (const auto& row : corners.rowwise()) {
-    triangles.push_back({point_of[row[0]], point_of[row[1]], point_of[row[2]]});
-  }
+std::vector<int> ContactSurface::add_triangles(const Body& body, const Triangles& corners,
+                                               const std::vector<int>& point_of) {
   const auto owner = [&](const std::array<int, 3>& triangle) { return points[triangle[0]].brick; };
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
+  std::vector<int> order(corners.rows());
+  std::iota(order.begin(), order.end(), 0);
+  const auto owner_of = [&](int row) { return points[point_of[corners(row, 0)]].brick; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return owner_of(a) < owner_of(b); });
+  std::vector<int> triangle_of(order.size());
+  around.resize(points.size());
+  for (const int row : order) {
+    triangle_of[row] = isize(triangles);
+    triangles.push_back({point_of[corners(row, 0)], point_of[corners(row, 1)], point_of[corners(row, 2)]});
+    for (const int corner : triangles.back()) around[corner].push_back(triangle_of[row]);
+  }
   normals = Points::Zero(points.size(), 3);
   std::vector<int> brick_of_triangle;
   for (const std::array<int, 3>& triangle : triangles) {
@@ -140,6 +153,20 @@ void ContactSurface::add_triangles(const Body& body, const Triangles& corners, c
   }
   first_triangle = starts_of(bricks, brick_of_triangle);
   normals.rowwise().normalize();
+  return triangle_of;
+}
+
+void ContactSurface::add_skin(const Embedding& embedding, const std::vector<int>& beneath,
+                              const std::vector<int>& triangle_of) {
+  std::vector<std::vector<int>> above(triangles.size());
+  for (std::size_t row = 0; row < beneath.size(); ++row) {
+    if (beneath[row] >= 0) above[triangle_of[beneath[row]]].push_back(int(row));
+  }
+  first_drawn.push_back(0);
+  for (const std::vector<int>& rows : above) {
+    for (const int row : rows) drawn.push_back(point_at(embedding, row));
+    first_drawn.push_back(isize(drawn));
+  }
 }
 
 void ContactSurface::add_edges() {
@@ -186,7 +213,8 @@ bool share_a_node(const Body& body, int a, int b) {
 const ContactSurface& contact_surface_of(SoftBody& body) {
   ContactSkin& contact = body.contact;
   if (!contact.surface) {
-    contact.surface = std::make_shared<const ContactSurface>(body, contact.points, contact.triangles);
+    contact.surface = std::make_shared<const ContactSurface>(body, contact.points, contact.triangles,
+                                                             body.drawn.embedding, contact.beneath);
   }
   return *contact.surface;
 }

@@ -21,14 +21,19 @@ struct NormalCone {
 
 /// Points embedded in a body and the triangles between them, if any, arranged by brick.
 struct ContactSurface {
-  /// `corners`: rows of `embedding`.
-  ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners);
+  /// `corners`: rows of `embedding`. `skin`: of what is drawn; `beneath`: by row of it, the row of `corners` under it
+  /// or -1; or none.
+  ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners, const Embedding& skin = {},
+                 const std::vector<int>& beneath = {});
 
   std::vector<int> bricks;                    // b; that hold points, ascending
   std::vector<ContactPoint> points;           // n; grouped by brick
   std::vector<int> first_point;               // b + 1
   std::vector<std::array<int, 3>> triangles;  // of points; grouped by the brick of the first of them
   std::vector<int> first_triangle;            // b + 1
+  std::vector<std::vector<int>> around;       // by point: the triangles that have it as a corner, ascending
+  std::vector<ContactPoint> drawn;            // vertices of the drawn skin; grouped by the triangle beneath
+  std::vector<int> first_drawn;               // t + 1, or none
   std::vector<std::array<int, 2>> edges;      // of the triangles, each once; grouped by the brick of the first point
   std::vector<int> first_edge;                // b + 1
   std::vector<std::array<int, 2>> opposite;   // by edge: the third corners of its two triangles; -1: none
@@ -46,7 +51,10 @@ struct ContactSurface {
  private:
   /// Returns the index in points of each of the embedding's.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
-  void add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& point_of);
+  /// Returns the index in triangles of each row of `corners`.
+  [[nodiscard]] std::vector<int> add_triangles(const Body& body, const Triangles& corners,
+                                               const std::vector<int>& point_of);
+  void add_skin(const Embedding& embedding, const std::vector<int>& beneath, const std::vector<int>& triangle_of);
   void add_edges();
 };
 

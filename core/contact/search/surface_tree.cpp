@@ -15,6 +15,8 @@ namespace sprung {
 namespace {
 
 constexpr int kBricksOfCluster = 8;
+constexpr long kHeightLooks = 8;     // after which heights of the drawn skin are measured again
+constexpr double kMaxHeight = 0.15;  // bricks, of which contact takes account
 constexpr double kNormalWeight = 4;  // bricks that opposite normals are worth, halved, in grouping bricks
 
 VectorBall enclosing(const VectorBall& a, const VectorBall& b) {
@@ -101,6 +103,10 @@ SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
   positions_.resize(skin.points.size());
   normals_.resize(skin.points.size());
   velocities_.resize(skin.points.size());
+  if (!skin.drawn.empty()) {
+    heights_.resize(skin.triangles.size());
+    heights_about_.resize(skin.points.size());
+  }
 }
 
 void SurfaceTree::add_node(int first, int last, int cluster, const Features& features) {
@@ -182,6 +188,7 @@ void SurfaceTree::measure(const Points& moved, const Points& moving, double more
 
 void SurfaceTree::follow(double time, double more) {
   refresh();
+  ++look_;
   time_ahead_ = time;
   distance_ahead_ = more;
   const Points moved = body_.positions - before_;
@@ -226,6 +233,29 @@ const Vec3& SurfaceTree::normal_of(int point) {
 
 void SurfaceTree::find_velocity(int point) {
   velocities_[point] = {carried(body_, skin_.points[point], body_.velocities), velocity_step_};
+}
+
+double SurfaceTree::height_above(int triangle) {
+  Cached<double>& height = heights_[triangle];
+  if (height.step >= 0 && look_ - height.step < kHeightLooks) return height.value;
+  const auto& [a, b, c] = skin_.triangles[triangle];
+  const Vec3 area = (position_of(b) - position_of(a)).cross(position_of(c) - position_of(a));
+  const Vec3 normal = area.normalized();
+  double highest = height.step >= 0 ? height.value : 0;
+  for (int i = skin_.first_drawn[triangle]; i < skin_.first_drawn[triangle + 1]; ++i) {
+    highest = std::max(highest, normal.dot(carried(body_, skin_.drawn[i], body_.positions) - position_of(a)));
+  }
+  height = {std::min(highest, kMaxHeight * body_.grid.brick_size), look_};
+  return height.value;
+}
+
+double SurfaceTree::height_about(int point) {
+  if (heights_about_.empty()) return 0;
+  Cached<double>& height = heights_about_[point];
+  if (height.step >= 0 && look_ - height.step < kHeightLooks) return height.value;
+  height = {0, look_};
+  for (const int triangle : skin_.around[point]) height.value = std::max(height.value, height_above(triangle));
+  return height.value;
 }
 
 const AlignedBox& SurfaceTree::box(int row) {

@@ -36,6 +36,9 @@ class SurfaceTree {
   /// Resets it to its initial state.
   void begin() {
     before_ = body_.positions;
+    look_ = 0;
+    std::fill(heights_.begin(), heights_.end(), Cached<double>{});
+    std::fill(heights_about_.begin(), heights_about_.end(), Cached<double>{});
     refresh();
   }
   /// Call every few steps, when velocities are those of the coming step; until the next call nothing may move further
@@ -91,6 +94,10 @@ class SurfaceTree {
     if (velocities_[point].step != velocity_step_) find_velocity(point);
     return velocities_[point].value;
   }
+  /// How far (m), at most, the drawn skin has been above the triangles about a point since begin(), or since asked: it
+  /// leaves them as bricks bend. Measured again every few calls of follow(); never less than before, since contact
+  /// that yields and presses in turn does not come to rest.
+  [[nodiscard]] double height_about(int point);
   /// How often more a ray from `start` leaves the surface than it enters it: for a closed surface its winding number,
   /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
   /// have the point `except` as a corner are left out.
@@ -103,6 +110,7 @@ class SurfaceTree {
   void list_nodes_of_clusters();
   void find_position(int point);
   void find_velocity(int point);
+  [[nodiscard]] double height_above(int triangle);
   /// Of the segment from `start` to `end` with the triangles of a subtree.
   [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
   /// Computes the motion of every node of the tree from the past and coming displacements of the body's nodes.
@@ -134,6 +142,9 @@ class SurfaceTree {
   std::vector<Cached<Vec3>> positions_;  // by point
   std::vector<Cached<Vec3>> normals_;
   std::vector<Cached<Vec3>> velocities_;
+  long look_ = 0;                              // calls of follow()
+  std::vector<Cached<double>> heights_;        // by triangle, of that many calls
+  std::vector<Cached<double>> heights_about_;  // by point, likewise
 };
 
 }  // namespace sprung
