@@ -73,7 +73,7 @@ bool CrossingGuard::find_met(double dt) {
     if (is_left_alone(pair)) continue;
     Eigen::Vector4d speeds;
     for (int corner = 0; corner < 4; ++corner) speeds[corner] = pair.normal.dot(near_.known_velocity(pair, corner));
-    if (!may_meet(pair, speeds, dt)) continue;
+    if (!may_meet(pair, speeds, dt) || near_.is_entangled(row)) continue;
     if (!can_be_moved(pair)) {
       const double gap = std::max(pair.gap, kMinGap * near_.brick());
       do_pins_meet_ = do_pins_meet_ || closing_speed(pair.pair, speeds) * dt > kFreeShare * gap;

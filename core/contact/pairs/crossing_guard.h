@@ -18,8 +18,9 @@ namespace sprung {
 /// If that is violated, an impulse acts between the nearest points or, if that is not enough, on the corners that
 /// violate it; the first conserves momentum and angular momentum, the other momentum. If these do not converge, nodes
 /// are slowed down one by one, and finally all nodes of features that still meet move as one, with their momentum, or
-/// with the pinned nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start is ignored
-/// until it has separated. It fails only where parts meet that pins or obstacles move on both sides. Deterministic.
+/// with the pinned nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start, and
+/// the features about it, are ignored until they have separated. It fails only where parts meet that pins or obstacles
+/// move on both sides. Deterministic.
 class CrossingGuard {
  public:
   /// `near` must outlive it.

@@ -23,8 +23,6 @@ bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoef
 /// Whether the nearest point of a triangle is on one of its sides.
 bool is_beside(const AwakePair& pair) { return pair.weights.tail<3>().maxCoeff() >= -kBeside; }
 
-const Vec3 kSkew(0.3713, 0.4832, 0.7931);  // of rays, which seldom meet an edge then
-
 }  // namespace
 
 FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction,
@@ -208,9 +206,8 @@ bool FeaturePairs::is_inside(const AwakePair& pair) {
   if (inside.look != look_) {
     SurfaceTree& ours = tree(pair.pair.first);
     const Vec3& position = ours.position_of(point);
-    const int turns = is_self() ? ours.winding_number(position, ours.normal_of(point), point)
-                                : tree(1 - pair.pair.first).winding_number(position, kSkew);
-    inside = {look_, turns > 0};
+    inside = {look_, is_self() ? ours.winding_number(position, ours.normal_of(point), point) > 0
+                               : tree(1 - pair.pair.first).encloses(position)};
   }
   return inside.value;
 }

@@ -167,6 +167,19 @@ void NearFeatures::measure(const World& world) {
     against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);
   }
   for (const auto& pairs : pairs_) pairs->measure(awake_);
+  are_entangled_.assign(awake_.size(), std::nullopt);
+}
+
+bool NearFeatures::is_entangled(std::size_t row) {
+  const AwakePair& pair = awake_[row];
+  if (pair.bodies[1] == AwakePair::kNoBody || pair.bodies[0] == pair.bodies[1]) return false;
+  std::optional<bool>& is_known = are_entangled_[row];
+  for (int corner = 0; corner < 4 && !is_known; ++corner) {
+    SurfaceTree& other = *surfaces_.trees[pair.bodies[1 - pair.pair.side(corner)]];
+    if (other.encloses(tree_of(pair, corner).position_of(pair.pair.corners[corner]))) is_known = true;
+  }
+  if (!is_known) is_known = false;
+  return *is_known;
 }
 
 }  // namespace sprung

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/contact/pairs/feature_pairs.h"
@@ -37,6 +38,8 @@ class NearFeatures {
 
   /// As they were when last measured.
   [[nodiscard]] const std::vector<AwakePair>& awake() const { return awake_; }
+  /// Whether a corner of one of these is inside the other body: they overlap there.
+  [[nodiscard]] bool is_entangled(std::size_t row);
   /// m, the smallest brick.
   [[nodiscard]] double brick() const { return brick_; }
   /// Those of the group, then the surfaces of obstacles, which nothing pushes.
@@ -97,6 +100,7 @@ class NearFeatures {
   std::vector<Against> against_;
   std::vector<Pose> poses_;  // of all obstacles, in this step
   std::vector<AwakePair> awake_;
+  std::vector<std::optional<bool>> are_entangled_;  // of these, as far as asked
   /// At the last prediction: how far it reaches, and the nodes.
   struct Seen {
     Points positions;

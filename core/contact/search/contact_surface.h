@@ -33,7 +33,7 @@ struct ContactSurface {
   std::vector<int> first_triangle;            // b + 1
   std::vector<std::vector<int>> around;       // by point: the triangles that have it as a corner, ascending
   std::vector<ContactPoint> drawn;            // vertices of the drawn skin; grouped by the triangle beneath
-  std::vector<int> first_drawn;               // t + 1, or none
+  std::vector<int> first_drawn;               // t + 1
   std::vector<std::array<int, 2>> edges;      // of the triangles, each once; grouped by the brick of the first point
   std::vector<int> first_edge;                // b + 1
   std::vector<std::array<int, 2>> opposite;   // by edge: the third corners of its two triangles; -1: none

@@ -102,8 +102,12 @@ class SurfaceTree {
   /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
   /// have the point `except` as a corner are left out.
   [[nodiscard]] int winding_number(const Vec3& start, const Vec3& direction, int except = -1);
+  /// Whether a point (m) is inside.
+  [[nodiscard]] bool encloses(const Vec3& position) { return winding_number(position, kSkew) > 0; }
 
  private:
+  static inline const Vec3 kSkew{0.3713, 0.4832, 0.7931};  // of rays, which seldom meet an edge then
+
   /// By brick of the skin: its middle, and its normal times kNormalWeight, in bricks.
   using Features = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   void add_node(int first, int last, int cluster, const Features& features);

@@ -244,6 +244,33 @@ TEST(CrossingGuard, MovesNothingAsOneThatTouchesExactlyAtTheStart) {
   EXPECT_EQ(counts.welded, 0);
 }
 
+/// Blocks that overlap by 0.2 mm, and beside each other by a tenth of a millimetre, come apart and stand.
+TEST(CrossingGuard, LetsOutWhatOverlapsAtTheStart) {
+  World world;
+  world.obstacles.push_back(level_ground(0));
+  const std::array<Vec3, 4> corners{Vec3(0, 0.0005, 0), Vec3(1e-4, 0.0303, -1e-4), Vec3(-1e-4, 0.0601, 1e-4),
+                                    Vec3(1e-4, 0.0899, 2e-4)};
+  for (const Vec3& corner : corners) {
+    world.bodies.push_back(touching_box({5, 3, 5}, 0.01, test_material(0.3, 2e6), corner));
+  }
+  ASSERT_GT(crossings(world.bodies[1], world.bodies[2]), 0) << "the scene is no test";
+  GuardCounts counts;
+  double highest = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    counts += counts_of_frame(world);
+    highest = std::max(highest, world.bodies[3].positions.col(1).maxCoeff());
+  }
+  EXPECT_LT(double(counts.impulses), 0.05 * double(counts.steps));
+  EXPECT_EQ(counts.failed, 0);
+  EXPECT_LT(highest, 0.0899 + 0.03 + 0.002) << "shot";
+  for (std::size_t row = 1; row < 4; ++row) {
+    EXPECT_EQ(crossings(world.bodies[row - 1], world.bodies[row]), 0) << row;
+    const Vec3 moved = world.bodies[row].positions.colwise().mean() - world.bodies[row].rest_positions.colwise().mean();
+    EXPECT_LT(moved.norm(), 1.5e-3) << row;
+    EXPECT_LT(world.bodies[row].velocities.colwise().mean().norm(), 5e-3) << row;
+  }
+}
+
 /// A box on the ground, whose lower nodes are pinned and move at `velocity` (m/s).
 World box_with_feet(double velocity) {
   World world;
