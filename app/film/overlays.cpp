@@ -181,7 +181,7 @@ SpringSet springs_of(const Body& body, const std::vector<bool>& shown) {
   for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
     if (!shown[brick]) continue;
     add(body.grid.nodes[brick], kEdges);
-    if (body.law.face != 0) add(body.grid.nodes[brick], kFaceDiagonals);
+    if (body.law.face != 0 || body.model == Model::kCalibrated) add(body.grid.nodes[brick], kFaceDiagonals);
     if (body.law.inner != 0) add(body.grid.nodes[brick], kInnerDiagonals);
   }
   std::sort(springs.nodes.begin(), springs.nodes.end());

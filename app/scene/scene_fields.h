@@ -289,8 +289,8 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
          "density, damping }"},
         body.material);
   visit({"model",
-         "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain, fem, or neo-hooke (an "
-         "experiment, slower: right where the surface cuts bricks)"},
+         "law of the bricks: calibrated (by the solid in each), springs (its forerunner), tensile (Baudet et al. "
+         "2009), m1, m2-plain, m1-plain or fem"},
         body.model);
   visit({"color", "\"#rrggbb\" where the mesh file gives no colour"}, body.color);
   visit({"look", "surface finish: plastic, gelatin, rubber or steel; default: by the material"}, body.look);

@@ -78,15 +78,14 @@ std::span<const Case> built_in_cases() {
        "corrections add the missing unknowns.",
        plain(run_equations), nullptr},
       {"uniaxial", "large strain: one brick stretched from 0.5 to 2 times its length, sides free",
-       "Springs that are linear in their true stretch form a hyperelastic law of their own, which is none of the "
-       "textbook laws; all of them share E and Poisson's ratio at rest. Stretched or compressed by 10 %, the bricks "
-       "are "
-       "within 7 % of Hooke's straight line (calibrated 4 %, tensile 3 %, m1 7 %); neo-Hooke and St. Venant-Kirchhoff "
-       "are 9 to 16 % off, on either side of it. At twice its length the calibrated brick pulls with 1.4 E, between "
-       "neo-Hooke's 0.5 E and St. Venant-Kirchhoff's 3 E; at half its length it pushes with 0.42 E, between 1.1 E and "
-       "0.19 E, where St. Venant-Kirchhoff has begun to soften. Only a test of a real material can tell which law it "
-       "follows: below 10 % of strain the choice matters little, beyond it the law is part of the answer. The laws of "
-       "the bricks differ in how much of the stiffness is in diagonals, which rotate as the brick is stretched.",
+       "The calibrated brick is neo-Hookean at any strain. Springs that are linear in their true stretch form "
+       "hyperelastic laws of their own, which are none of the textbook laws; all of them share E and Poisson's ratio "
+       "at rest. Stretched or compressed by 10 %, bricks of springs are within 7 % of Hooke's straight line (springs "
+       "4 %, tensile 3 %, m1 7 %); neo-Hooke and St. Venant-Kirchhoff are 9 to 16 % off, on either side of it. At "
+       "twice its length the model springs pulls with 1.4 E, between neo-Hooke's 0.5 E and St. Venant-Kirchhoff's 3 E; "
+       "at half its length it pushes with 0.42 E, between 1.1 E and 0.19 E, where St. Venant-Kirchhoff has begun to "
+       "soften. Only a test of a real material can tell which law it follows: below 10 % of strain the choice matters "
+       "little, beyond it the law is part of the answer.",
        plain(run_uniaxial), nullptr},
       {"tables", "published cases from the literature: displacements, stresses, frequencies",
        "Straight, curved and twisted beams, membranes, plates, tubes and vibrations from the literature, each on one "
@@ -95,10 +94,10 @@ std::span<const Case> built_in_cases() {
        "source "
        "names.",
        run_tables, nullptr},
-      {"cut", "parts thinner than a brick, turned or round, and large strains: calibrated beside neo-hooke",
-       "What the surface cuts out of bricks. The calibrated brick has a share of a full brick's stiffness, and is too "
-       "stiff in bending by the square of what a part is thinner than it; neo-hooke knows how the solid lies in each "
-       "brick. Only its figures have a tolerance.",
+      {"cut", "parts thinner than a brick, turned or round, and large strains: calibrated beside springs",
+       "What the surface cuts out of bricks. A brick of springs has a share of a full brick's stiffness, and is too "
+       "stiff in bending by the square of what a part is thinner than it; the calibrated brick knows how the solid "
+       "lies in it. Only its figures have a tolerance.",
        run_cut, nullptr}};
   return cases;
 }

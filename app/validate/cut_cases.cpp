@@ -30,7 +30,7 @@ SupportedBody supported_at(const Body& body, int axis, const Vec3& acceleration)
 CaseResult run_cut(const Choice& choice, const Observer& observer) {
   CaseResult result;
   if (choice.bricks || choice.poisson) return result;  // each has its own
-  std::vector<Model> models{Model::kCalibrated, Model::kNeoHooke};
+  std::vector<Model> models{Model::kCalibrated, Model::kSprings};
   if (choice.model) models = {*choice.model};
   std::vector<CutPart> parts;
   for (const auto& some : {thin_parts(), turned_parts(), strained_parts()}) {
@@ -57,7 +57,7 @@ CaseResult run_cut(const Choice& choice, const Observer& observer) {
                                  .expected = figure.expected,
                                  .unit = figure.unit,
                                  .source = figure.source,
-                                 .tolerance = model == Model::kNeoHooke ? figure.tolerance : kNaN,
+                                 .tolerance = model == Model::kCalibrated ? figure.tolerance : kNaN,
                                  .trouble = trouble});
       }
     }

@@ -17,7 +17,7 @@ struct CutFigure {
   double expected = 0;
   std::string unit;
   std::string source;
-  double tolerance = kNaN;  // of neo-hooke
+  double tolerance = kNaN;  // of the default
 };
 
 /// A part whose figures are all measured at once for a model.

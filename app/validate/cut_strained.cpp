@@ -78,7 +78,7 @@ void add_standing_cubes(std::vector<CutPart>& parts) {
   for (const auto& [poisson, height] : {std::pair{0.3, 0.166307}, {0.45, 0.168964}, {0.49, 0.170016}}) {
     parts.push_back({"8x8x8",
                      poisson,
-                     {{"standing cube: height", height, "m", "neo-hooke, 32 bricks across", 0.02},
+                     {{"standing cube: height", height, "m", "the same model, 32 bricks across", 0.02},
                       {"standing cube: inverted bricks", 0, "", "it stands", 0.5},
                       {"standing cube: Newton steps", 4, "", "at most twice as many", 1}},
                      [nu = poisson](Model model) { return standing_cube(model, nu); }});
@@ -104,7 +104,7 @@ double brick_stress(Model model, double poisson, const Mat3& gradient, const Eig
 }
 
 /// Nominal principal stress over E of the neo-Hookean solid of this model along the first axis; the stretches of free
-/// axes, which are one and the same, make their stresses zero. Below a volume ratio of 0.2 its pressure is linear in J.
+/// axes, which are one and the same, make their stresses zero. Below a volume ratio of 0.1 its pressure is linear in J.
 double closed_form_stress(double poisson, Vec3& stretches, const Eigen::Array<bool, 3, 1>& free) {
   const Material material = light_material(1, poisson);
   const double shear = material.shear_modulus();
@@ -112,7 +112,7 @@ double closed_form_stress(double poisson, Vec3& stretches, const Eigen::Array<bo
   const auto stress = [&](int axis) {
     const double s = stretches[axis];
     const double volume = stretches.prod();
-    const double slope = volume >= 0.2 ? 1 / volume : 10 - 25 * volume;  // of log J, and of its parabola
+    const double slope = volume >= 0.1 ? 1 / volume : 20 - 100 * volume;  // of log J, and of its parabola
     return shear * s + (lambda * (volume - 1) - shear * slope) * volume / s;
   };
   double low = 0.1;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/body/brick_kernel.h"
+#include "core/body/brick_model.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/solid_tiles.h"
 #include "core/bricks/embedding.h"
@@ -49,7 +49,7 @@ void put_at_rest(Body& body) {
 }
 
 double volume_ratio(const Body& body, std::size_t brick) {
-  return brick_volume(brick_corners(body, brick)) / body.grid.brick_volume();
+  return brick_model(body.model).gradient(body, brick, at_corners(body, brick, body.positions)).determinant();
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   Body body;
   body.law = brick_law(model, material, grid.brick_size);
   if (model == Model::kFem) body.small_strain_stiffness = hexahedron_stiffness(material, grid.brick_size);
-  if (model == Model::kNeoHooke) body.solids = solids_of(grid, material.poisson);
+  if (model == Model::kCalibrated) body.solids = solids_of(grid, material.poisson);
   body.grid = std::move(grid);
   body.model = model;
   body.material = material;
@@ -95,7 +95,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
 
 void build_tiles(Body& body) {
   body.tiles = std::make_shared<const BrickTiles>(
-      body.model == Model::kNeoHooke ? make_solid_tiles(body) : make_spring_tiles(body.grid, body.stiffness_scale));
+      body.model == Model::kCalibrated ? make_solid_tiles(body) : make_spring_tiles(body.grid, body.stiffness_scale));
 }
 
 void place(Body& body, const Mat3& rotation, const Vec3& translation) {

@@ -67,7 +67,7 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation);
 /// Positions of a brick's corners, x y z corner by corner, m.
 [[nodiscard]] std::array<double, 24> brick_corners(const Body& body, std::size_t brick);
 
-/// Smallest signed volume of any brick over its rest volume, by the mean axes; below zero: inverted.
+/// Smallest determinant of any brick's deformation gradient (BrickModel::gradient()); below zero: inverted.
 [[nodiscard]] double smallest_volume_ratio(const Body& body);
 /// The number of inverted bricks.
 [[nodiscard]] int inverted_bricks(const Body& body);

@@ -10,7 +10,7 @@
 
 namespace sprung {
 
-BricksFor bricks_for(Model model) { return model == Model::kNeoHooke ? BricksFor::kMoments : BricksFor::kFill; }
+BricksFor bricks_for(Model model) { return model == Model::kCalibrated ? BricksFor::kMoments : BricksFor::kFill; }
 
 double region_factor(const Body& body, std::size_t brick) {
   return body.stiffness_scale[brick] / std::max(body.grid.fill[brick], kStiffnessFloor);
@@ -208,9 +208,9 @@ const BrickModel& brick_model(Model model) {
   switch (model) {
     case Model::kFem:
       return hexahedra;
-    case Model::kNeoHooke:
-      return solids;
     case Model::kCalibrated:
+      return solids;
+    case Model::kSprings:
     case Model::kTensile:
     case Model::kM1:
     case Model::kM2Plain:

@@ -22,7 +22,7 @@ KernelInput input_of(const Body& body, KernelTask task) {
   KernelInput input;
   input.task = task;
   input.law = body.law;
-  input.is_solid = body.model == Model::kNeoHooke;
+  input.is_solid = body.model == Model::kCalibrated;
   if (input.is_solid) input.solid = solid_law(body.material, body.grid.brick_size);
   input.brick_size = body.grid.brick_size;
   input.beta = body.damping.beta;

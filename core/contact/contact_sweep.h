@@ -7,7 +7,7 @@
 namespace sprung {
 
 /// Keeps nearby features at a distance, glued points together, and bricks from being flattened or inverted, by impulses
-/// on the nodes: one Gauss-Seidel sweep per step over all contacts, warm-started with the impulses of the previous
+/// on the nodes: a few Gauss-Seidel sweeps per step over all contacts, warm-started with the impulses of the previous
 /// step. Each contact prescribes the speed along its normal at which its two features may approach or must separate; an
 /// impulse that brings them to that speed, or to rest tangentially within Coulomb's cone, is a projection that adds no
 /// energy unless that speed is above zero, in any order and after any number of sweeps. Errors left by a sweep are

@@ -5,7 +5,7 @@
 namespace sprung {
 
 /// The contacts of a group's bodies if World::guards_crossings is set: nearby features are found (NearFeatures), kept
-/// apart by one sweep of impulses (ContactSweep), and guaranteed not to cross (CrossingGuard).
+/// apart by a few sweeps of impulses (ContactSweep), and guaranteed not to cross (CrossingGuard).
 class SweptContacts {
  public:
   /// The bodies must outlive it. `glue` by rows of the group.

@@ -11,8 +11,8 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 7> kModelNames{"calibrated", "tensile", "m1",       "m2-plain",
-                                                      "m1-plain",   "fem",     "neo-hooke"};
+constexpr std::array<std::string_view, 7> kModelNames{"calibrated", "springs",  "tensile", "m1",
+                                                      "m2-plain",   "m1-plain", "fem"};
 
 constexpr double kGuardStiffness = 5;  // in units of E h^3
 
@@ -31,7 +31,7 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   law.axial_cross -= law.axes;
 }
 
-BrickLaw calibrated_law(const Material& material, double h) {
+BrickLaw springs_law(const Material& material, double h) {
   const double plate = material.young / (1 - material.poisson * material.poisson);
   BrickLaw law;
   // Twist requires G h / 6. Below a ratio of 0 bending in one sense about both axes allows only plate h (1 + nu) / 12:
@@ -49,8 +49,8 @@ void check_dilation(double poisson) {
   if (poisson >= -0.5) return;
   throw Error(
       ErrorKind::kBadInput,
-      fmt::format("model neo-hooke cannot represent Poisson's ratio {}: below -0.5 it would swell by itself; use "
-                  "model calibrated",
+      fmt::format("model calibrated cannot represent Poisson's ratio {}: below -0.5 it would swell by itself; use "
+                  "model springs",
                   poisson));
 }
 
@@ -80,8 +80,8 @@ BrickLaw m1_springs(const Material& material, double h) {
 
 BrickLaw law_of(Model model, const Material& material, double h) {
   switch (model) {
-    case Model::kCalibrated:
-      return calibrated_law(material, h);
+    case Model::kSprings:
+      return springs_law(material, h);
     case Model::kTensile:
     case Model::kM2Plain: {
       check_edge_spring(model_name(model), material.poisson, -0.25, material.poisson > -0.25);
@@ -96,7 +96,7 @@ BrickLaw law_of(Model model, const Material& material, double h) {
       if (model == Model::kM1) calibrate_stretch(law, material, h);
       return law;
     }
-    case Model::kNeoHooke:
+    case Model::kCalibrated:
       check_dilation(material.poisson);
       break;
     case Model::kFem:

@@ -6,22 +6,22 @@
 
 namespace sprung {
 
-/// How a brick's springs are laid out and calibrated. M1 is edges and face diagonals, M2 edges and inner diagonals.
+/// The law of a body's bricks. M1 is springs along edges and face diagonals, M2 along edges and inner diagonals.
 enum class Model {
-  kCalibrated,  // edges, face and inner diagonals; exact in stretch, shear, torsion and bending (default)
+  kCalibrated,  // neo-Hookean, by the moments of the solid in each brick (default; see neo_hooke/solid_brick.h)
+  kSprings,     // edges, face and inner diagonals: full bricks are exact in stretch, shear, torsion and bending
   kTensile,     // the paper's M2 with its corrections: exact in stretch and shear
   kM1,          // the paper's M1 with its corrections: exact in stretch and shear
   kM2Plain,     // M2 without corrections: right at nu = 1/4 only
   kM1Plain,     // M1 without corrections: right at nu = 1/4 only
-  kFem,         // no springs: the trilinear hexahedron, small strains, to compare with (see hexahedron.h)
-  kNeoHooke     // not springs alone: neo-Hookean, by the moments of a brick's solid (see neo_hooke/solid_brick.h)
+  kFem          // no springs: the trilinear hexahedron, small strains, to compare with (see hexahedron.h)
 };
 
 [[nodiscard]] std::string_view model_name(Model model);
 /// Whether bricks of the model are computed in packs, see SpringSystem.
 [[nodiscard]] constexpr bool has_tiles(Model model) { return model != Model::kFem; }
 /// Whether bodies of the model are mass-spring systems, whose bricks are a BrickLaw each.
-[[nodiscard]] constexpr bool has_springs(Model model) { return model != Model::kFem && model != Model::kNeoHooke; }
+[[nodiscard]] constexpr bool has_springs(Model model) { return model != Model::kFem && model != Model::kCalibrated; }
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Model model_from_name(std::string_view name);
 
@@ -56,11 +56,11 @@ struct BrickLaw {
 [[nodiscard]] std::span<const std::string_view> model_names();
 
 /// The law of a brick of side h (m). Throws Error(kBadInput) if the model cannot represent the material (M2 needs -1/4
-/// < nu, M1 0 <= nu: an edge spring must not push; kNeoHooke -1/2 <= nu). A model without springs gets an empty law.
+/// < nu, M1 0 <= nu: an edge spring must not push; kCalibrated -1/2 <= nu). A model without springs gets an empty law.
 /// Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters in
 /// Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
 /// (1+nu)), and their correction forces as the potential axial = h (lambda J + 2 G I) - 4 edge I - (4/3) inner J - 2
-/// face (I + J). M1: face = G h / 2, edge = nu G h. kCalibrated: torsion gives face = G h / 6, shear then inner = 3/4
+/// face (I + J). M1: face = G h / 2, edge = nu G h. kSprings: torsion gives face = G h / 6, shear then inner = 3/4
 /// (G h - 2 face), edge = 0, and two bending experiments give bending = (h/3) E/(1-nu^2) [[1, nu], [nu, 1]] - 2 face
 /// [[1, 1], [1, 1]]. Where nu < 0 that would be negative for bending in one sense about both axes, and a brick far from
 /// rest could pull itself apart: there face = E h / (12 (1-nu)), the most that leaves it at zero, and the twist of a

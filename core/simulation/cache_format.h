@@ -8,7 +8,7 @@
 namespace sprung {
 
 /// The layout of a cache. Increment kCacheLayout with every change.
-inline constexpr int kCacheLayout = 4;
+inline constexpr int kCacheLayout = 5;
 inline constexpr const char* kLayoutName = "/layout";
 inline constexpr const char* kProgressName = "/frames/progress";  // written last: completes a frame
 inline constexpr const char* kProbesName = "/frames/probes";

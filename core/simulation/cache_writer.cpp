@@ -88,7 +88,7 @@ void write_origin(Hdf5Writer& hdf5, const std::string& folder, const Origin& ori
 void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& body, bool is_exact) {
   write_color(hdf5, folder + "/color", body.drawn.color);
   write_grid(hdf5, folder, body.grid);
-  if (body.model == Model::kNeoHooke) write_moments(hdf5, folder, body.grid.moments);
+  if (body.model == Model::kCalibrated) write_moments(hdf5, folder, body.grid.moments);
   write_list(hdf5, folder + "/stiffness_scale", body.stiffness_scale);
   hdf5.write(folder + "/masses", flat_values(body.masses), {std::size_t(body.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", body.rest_positions);

@@ -226,11 +226,19 @@ void warn_of_crushed_bodies(const World& world, const Observer& observer) {
     const Body& body = world.bodies[i];
     const int inverted = inverted_bricks(body);
     if (inverted == 0 && !is_crushed(body)) continue;
-    observer.warn(fmt::format(
-        "body {}: of {} bricks {} are inverted and {} compressed to less than {} of their volume at the end, where the "
-        "volume guard supports them, not their springs: the material is too soft for its weight, its impact or its "
-        "pins; use a stiffer or lighter material (young, density) or a smaller body",
-        i + 1, body.grid.brick_count(), inverted, guarded_bricks(body) - inverted, body.law.guard_ratio));
+    std::string what = fmt::format("{} are inverted", inverted);
+    if (has_springs(body.model)) {
+      what += fmt::format(
+          " and {} compressed to less than {} of their volume at the end, where the volume guard supports them, not "
+          "their springs",
+          guarded_bricks(body) - inverted, body.law.guard_ratio);
+    } else {
+      what += " at the end";
+    }
+    observer.warn(
+        fmt::format("body {}: of {} bricks {}: the material is too soft for its weight, its impact or its pins; use a "
+                    "stiffer or lighter material (young, density) or a smaller body",
+                    i + 1, body.grid.brick_count(), what));
   }
 }
 

@@ -103,10 +103,10 @@ std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
-/// Warns once of all parts of one body's solids that are thinner than its bricks.
+/// Tells once of all parts of one body's solids that are thinner than its bricks, and what that does to them.
 class ThinParts {
  public:
-  explicit ThinParts(const LoadedBody& body) : body_(body) {}
+  ThinParts(const LoadedBody& body, Model model) : body_(body), model_(model) {}
 
   std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
     if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // load_body() warns of shells
@@ -119,19 +119,24 @@ class ThinParts {
     return parts;
   }
 
-  void warn(const Observer& observer) const {
+  void tell(const Observer& observer) const {
     if (count_ == 0) return;
     const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.position);
-    observer.warn(fmt::format(
-        "{}: {} thinner than a brick ({}), in {}: stiffer and blunter than they should be; the thinnest, near ({:.4g}, "
-        "{:.4g}, {:.4g}) of the file, is about {} thick: bricks of that size would hold it",
+    const bool is_known = model_ == Model::kCalibrated;
+    const std::string text = fmt::format(
+        "{}: {} thinner than a brick ({}), in {}: {}; the thinnest, near ({:.4g}, {:.4g}, {:.4g}) of the file, is "
+        "about {} thick{}",
         body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
-        count_of(bricks_, "brick"), place.x(), place.y(), place.z(),
-        readable(thinnest_.thickness, Dimension::kLength)));
+        count_of(bricks_, "brick"),
+        is_known ? "up to a fifth too stiff where they are curved" : "stiffer and blunter than they should be",
+        place.x(), place.y(), place.z(), readable(thinnest_.thickness, Dimension::kLength),
+        is_known ? "" : ": bricks of that size would hold it");
+    is_known ? observer.note(text) : observer.warn(text);
   }
 
  private:
   const LoadedBody& body_;
+  Model model_;
   long count_ = 0;
   long bricks_ = 0;
   ThinPart thinnest_;
@@ -141,13 +146,13 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& 
   const World& world = prepared.simulation.world;
   std::size_t soft_body = 0;
   for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
-    ThinParts parts(prepared.bodies[body]);
+    ThinParts parts(prepared.bodies[body], scene.bodies[body].model);
     const std::size_t copies = copy_count(scene.bodies[body]);
     for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, soft_body += copies) {
       const std::vector<ThinPart> found = parts.find(world.bodies[soft_body].grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
-    parts.warn(observer);
+    parts.tell(observer);
   }
 }
 

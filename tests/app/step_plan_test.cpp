@@ -10,7 +10,7 @@ namespace {
 
 World block(double young) {
   World world;
-  Body body = make_body(make_box_grid({8, 4, 4}, 0.01), Model::kCalibrated, test::test_material(0.3, young));
+  Body body = make_body(make_box_grid({8, 4, 4}, 0.01), Model::kSprings, test::test_material(0.3, young));
   SoftBody& added = world.bodies.emplace_back(std::move(body));
   added.contact.points = embed(added.grid, added.grid.rest_positions());
   world.obstacles = {level_ground(0)};

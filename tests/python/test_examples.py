@@ -20,7 +20,7 @@ class Convergence(unittest.TestCase):
         spec = importlib.util.spec_from_file_location("convergence", SCRIPT)
         convergence = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(convergence)
-        for bricks, percent in [(4, 1.8), (8, 2.5), (16, 1.1)]:  # sprung validate --case cantilever
+        for bricks, percent in [(4, 2.27), (8, 2.41), (16, 1.03)]:  # sprung validate --case cantilever
             error = 100 * abs(convergence.tip(BEAM, "calibrated", bricks) / convergence.REFERENCE - 1)
             self.assertAlmostEqual(error, percent, delta=0.06, msg=f"{bricks} bricks")
 

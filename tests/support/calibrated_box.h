@@ -8,7 +8,7 @@ namespace sprung::test {
 
 /// A box of the calibrated model; h in m, young in Pa.
 inline Body calibrated_box(const Eigen::Vector3i& counts, double h, double poisson, double young = 1e4) {
-  return make_body(make_box_grid(counts, h), Model::kCalibrated, test_material(poisson, young));
+  return make_body(make_box_grid(counts, h), Model::kSprings, test_material(poisson, young));
 }
 
 /// Advances by as few equal explicit steps as are stable at the start; duration in s.

@@ -61,7 +61,7 @@ double fastest_vibration_squared(const Body& body) {
 }  // namespace
 
 double largest_frequency_squared(const Body& body) {
-  if (body.model == Model::kNeoHooke) return fastest_vibration_squared(body);
+  if (body.model == Model::kCalibrated) return fastest_vibration_squared(body);
   double share = 0;
   for (const double scale : body.stiffness_scale) share += scale;
   const double corner_mass = body.masses.sum() / share / 8;

@@ -25,7 +25,7 @@ class ContactStates;
 [[nodiscard]] double stable_step(const Body& body, double safety = 0.7);
 
 /// The square of the fastest frequency (1/s^2) of any node of the body: the largest eigenvalue of a single brick with
-/// its own lumped mass, which bounds the assembled one; of solid bricks (Model::kNeoHooke) the assembled one itself,
+/// its own lumped mass, which bounds the assembled one; of solid bricks (Model::kCalibrated) the assembled one itself,
 /// plus a tenth.
 [[nodiscard]] double largest_frequency_squared(const Body& body);
 

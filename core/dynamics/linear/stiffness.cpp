@@ -118,7 +118,7 @@ void multiply_springs(const Body& body, const Eigen::VectorXd& u, double* produc
 
 void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
                         Eigen::VectorXd& product) {
-  if (body.model == Model::kNeoHooke) return workspace.springs.multiply(body, u, product);
+  if (body.model == Model::kCalibrated) return workspace.springs.multiply(body, u, product);
   double* products = workspace.sums.room(body.grid);
   if (has_springs(body.model)) {
     multiply_springs(body, u, products);

@@ -13,9 +13,9 @@ using GradientMatrix = Eigen::Matrix<double, 9, 9>;
 
 /// The strain-energy density of a compressible neo-Hookean solid,
 ///   psi = G/2 (F : F - 3) - G log J + lambda/2 (J - 1)^2,   J = det F,
-/// with Lame's constants of the material at rest. Below J = 0.2 the logarithm continues as the parabola with its value,
+/// with Lame's constants of the material at rest. Below J = 0.1 the logarithm continues as the parabola with its value,
 /// slope and curvature there: psi is finite and twice differentiable for every F, inverted ones too; a block compressed
-/// along one axis carries more and more until a fifth of its volume is left. Where lambda < 0 (nu < 0) the last term is
+/// along one axis carries more and more until a tenth of its volume is left. Where lambda < 0 (nu < 0) the last term is
 /// lambda/2 (J - 1)^2 / (1 + (J - 1)^2): without a bound it would let a solid swell without end; with it psi grows with
 /// every dilation down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis",
 /// section 6.4.3, with (J - 1)^2 instead of (log J)^2.

@@ -39,9 +39,9 @@ struct DrawnBar {
 TEST(FieldValues, AreThoseOfADrawnBar) {
   const DrawnBar bar;
   const double e = (kStretch * kStretch - 1) / 2;
-  const double lambda = 0.4 * kYoung;  // at a ratio of 1/4 both of Lame's constants are that
-  const double along = kStretch * kStretch * (lambda + 2 * lambda) * e / kStretch;
-  const double across = lambda * e / kStretch;
+  const double shear = 0.4 * kYoung;  // at a ratio of 1/4 both of Lame's constants are that
+  const double along = shear * (kStretch * kStretch - 1) / kStretch + shear * (kStretch - 1);  // neo-Hooke's
+  const double across = shear * (kStretch - 1);
   const std::vector<std::pair<Field, double>> expected{{Field::kSpeed, 0.1 * kFps}, {Field::kStretch, kStretch},
                                                        {Field::kStrain, 2 * e / 3}, {Field::kStress, along - across},
                                                        {Field::kVolume, kStretch},  {Field::kFill, 1},

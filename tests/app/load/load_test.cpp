@@ -133,7 +133,7 @@ TEST_F(Load, HoleInAPlateTriplesTheStress) {
   const nlohmann::json made =
       answer("plate.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load x-high:5000N:out" + kSteel);
   const double peak = number(made, "/largest_principal_Pa/value");
-  EXPECT_NEAR(peak, 30.3e6, 0.03 * 30.3e6);
+  EXPECT_NEAR(peak, 30.3e6, 0.04 * 30.3e6);
 }
 
 /// Lame: u(a) = p a / E (K + nu), K = (b^2 + a^2) / (b^2 - a^2), in plane stress; hoop stress p K inside.
@@ -192,8 +192,8 @@ TEST_F(Load, ColumnsBuckleAlikeAlongAllAxes) {
 /// About the centroid of the face, if that is not the middle of the side: M = F a.
 TEST_F(Load, MomentsOfSupportsAreAboutTheirCentroids) {
   const nlohmann::json made =
-      answer(SPRUNG_SOURCE_DIR "/assets/models/bracket.stl --bricks 40 --fix y-high --load x-high:30N:-y");
-  EXPECT_NEAR(number(made, "/reactions/0/moment_Nm/2"), 30 * 0.077, 0.002);
+      answer(SPRUNG_SOURCE_DIR "/assets/models/bracket.stl --bricks 40 --fix y-high --load x-high:3N:-y");
+  EXPECT_NEAR(number(made, "/reactions/0/moment_Nm/2"), 3 * 0.077, 0.0002);
   EXPECT_NEAR(number(made, "/reactions/0/about/0"), 3, 1e-6);
 }
 

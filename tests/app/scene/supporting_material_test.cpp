@@ -29,14 +29,14 @@ const Vec3 kGravity(0, -9.81, 0);
 /// next softer elastomer of the library does not.
 TEST(SupportingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
   const auto chosen =
-      softest_supporting(column(0.1, 0.32), Support::kStands, kGravity, false, *built_in_materials(), Observer());
+      softest_supporting(column(0.16, 0.32), Support::kStands, kGravity, false, *built_in_materials(), Observer());
   ASSERT_TRUE(chosen);
   EXPECT_LE(chosen->sag, 0.04);
   const auto sag_of = [](const LibraryMaterial& material, Solver scheme) {
     Scene scene;
     scene.solver.scheme = scheme;
     scene.solver.load_steps = 1;
-    SceneBody& body = scene.bodies.emplace_back(column(0.1, 0.32));
+    SceneBody& body = scene.bodies.emplace_back(column(0.16, 0.32));
     body.bricks = 32;
     body.material = material.material();
     body.pins = {foot()};

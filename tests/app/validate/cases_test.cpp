@@ -94,7 +94,7 @@ TEST(Tables, HoldTheirGates) {
 }
 
 TEST(Cut, HoldsItsGates) {
-  const CaseResult result = run_cut({.model = Model::kNeoHooke, .poisson = {}, .bricks = {}}, Observer());
+  const CaseResult result = run_cut({.model = Model::kCalibrated, .poisson = {}, .bricks = {}}, Observer());
   for (const Check& check : result.checks) EXPECT_EQ(check.trouble, "") << check.quantity;
   EXPECT_GE(held_gates(result).size(), 50U);
   EXPECT_TRUE(run_cut({.model = {}, .poisson = {}, .bricks = 4}, Observer()).checks.empty());

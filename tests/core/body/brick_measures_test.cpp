@@ -13,9 +13,7 @@ namespace {
 constexpr double kYoung = 2e4;
 constexpr double kPoisson = 0.3;
 
-Body box() {
-  return make_body(make_box_grid({3, 2, 2}, 0.1), Model::kCalibrated, test::test_material(kPoisson, kYoung));
-}
+Body box() { return make_body(make_box_grid({3, 2, 2}, 0.1), Model::kSprings, test::test_material(kPoisson, kYoung)); }
 
 /// The measure of every brick under an affine map of the nodes; expects all to be equal.
 double measured(BrickMeasure measure, const Mat3& map) {

@@ -105,7 +105,7 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
 TEST(BrickForces, DampingTakesEnergyAndLeavesRigidMotionAlone) {
   std::mt19937 random(3);
   const double h = 0.1;
-  const BrickLaw law = brick_law(Model::kCalibrated, test_material(0.3), h);
+  const BrickLaw law = brick_law(Model::kSprings, test_material(0.3), h);
   const CornerVectors<double> x = crushed_brick(h, 1.0, random);
   CornerVectors<double> elastic{};
   brick_forces<double>(law, h, x, nullptr, elastic);
@@ -153,7 +153,7 @@ TEST(SpringForces, SumToNothing) {
 }
 
 TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
-  Body body = shaken_box(Model::kCalibrated);
+  Body body = shaken_box(Model::kSprings);
   body.damping.beta = 1e-3;
   for (int i = 0; i < body.node_count(); ++i) body.velocities.row(i).setConstant(std::sin(i));
   Points first;
@@ -168,16 +168,16 @@ TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Body, MassIsDensityTimesVolume) {
-  const Body body = shaken_box(Model::kCalibrated);
+  const Body body = shaken_box(Model::kSprings);
   EXPECT_NEAR(body.masses.sum(), 1000 * body.grid.volume(), 1e-12);
   EXPECT_GT(body.masses.minCoeff(), 0);
 }
 
 TEST(Body, FillScalesTheWholeLaw) {
   BrickGrid grid = make_box_grid({1, 1, 1}, 0.1);
-  Body full = make_body(grid, Model::kCalibrated, test_material(0.3));
+  Body full = make_body(grid, Model::kSprings, test_material(0.3));
   grid.fill[0] = 0.25;
-  Body part = make_body(grid, Model::kCalibrated, test_material(0.3));
+  Body part = make_body(grid, Model::kSprings, test_material(0.3));
   full.positions *= 1.1;
   part.positions *= 1.1;
   EXPECT_NEAR(elastic_energy(part), 0.25 * elastic_energy(full), 1e-12 * elastic_energy(full));
@@ -195,7 +195,7 @@ TEST(Body, TurnedHexahedraAnswerLikeUnturnedOnes) {
 }
 
 TEST(Body, CountsInvertedBricks) {
-  Body body = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kCalibrated, test_material(0.3));
+  Body body = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kSprings, test_material(0.3));
   EXPECT_EQ(inverted_bricks(body), 0);
   EXPECT_NEAR(smallest_volume_ratio(body), 1, 1e-12);
   for (int i = 0; i < body.node_count(); ++i) {

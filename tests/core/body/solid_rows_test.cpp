@@ -37,7 +37,7 @@ Body ragged_solid(double poisson) {
     grid.fill.push_back(is_cut || cell.z() == 3 ? 0.6 + 0.3 * between(random) : 1.0);
   }
   number_nodes(grid);
-  Body body = make_body(std::move(grid), Model::kNeoHooke, test_material(poisson));
+  Body body = make_body(std::move(grid), Model::kCalibrated, test_material(poisson));
   for (std::size_t brick = 0; brick < body.stiffness_scale.size(); brick += 2) body.stiffness_scale[brick] *= 7;
   build_tiles(body);
   shake(body, 0.3, random);
@@ -67,7 +67,7 @@ double largest(const Points& values) { return values.cwiseAbs().maxCoeff(); }
 constexpr std::array<double, 3> kRatios{-0.2, 0.3, 0.49};
 
 TEST(SolidRows, PullLikeTheirBricks) {
-  const BrickModel& model = brick_model(Model::kNeoHooke);
+  const BrickModel& model = brick_model(Model::kCalibrated);
   for (const double poisson : kRatios) {
     Body body = ragged_solid(poisson);
     EXPECT_LT(inverted_bricks(body), body.grid.brick_count() / 4);
@@ -88,7 +88,7 @@ TEST(SolidRows, PullLikeTheirBricks) {
 }
 
 TEST(SolidRows, AreDampedLikeTheirBricks) {
-  const BrickModel& model = brick_model(Model::kNeoHooke);
+  const BrickModel& model = brick_model(Model::kCalibrated);
   Body body = ragged_solid(0.4);
   constexpr double kFactor = 2;
   const Points expected = sum_over_bricks(body, [&](std::size_t brick, const BrickVector& x, const BrickVector& v) {
@@ -106,7 +106,7 @@ TEST(SolidRows, AreDampedLikeTheirBricks) {
 }
 
 TEST(SolidRows, MultiplyLikeTheirBricks) {
-  const BrickModel& model = brick_model(Model::kNeoHooke);
+  const BrickModel& model = brick_model(Model::kCalibrated);
   for (const double poisson : kRatios) {
     const Body body = ragged_solid(poisson);
     const Points expected = sum_over_bricks(body, [&](std::size_t brick, const BrickVector& x, const BrickVector& v) {
@@ -149,7 +149,7 @@ TEST(SolidRows, HaveTheHessiansOfTheirBricks) {
 }
 
 TEST(SolidRows, HaveTheEnergyOfTheirBricks) {
-  const BrickModel& model = brick_model(Model::kNeoHooke);
+  const BrickModel& model = brick_model(Model::kCalibrated);
   for (const double poisson : kRatios) {
     const Body body = ragged_solid(poisson);
     double expected = 0;

@@ -23,7 +23,7 @@ using test::world_of;
 /// Bricks far too soft for their own weight are compressed to the limit, but not inverted.
 TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
   for (const double poisson : {0.1, 0.3, 0.45}) {
-    World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kCalibrated, test_material(poisson, 100)),
+    World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kSprings, test_material(poisson, 100)),
                            {0, -9.81, 0});
     world.obstacles = {level_ground(0)};
     world.bodies[0].damping.beta = 0.01;
@@ -74,7 +74,7 @@ TEST(InversionRate, CrushedBricksGiveNoEnergy) {
 /// One face turned against the opposite one by more than a right angle: the corners may be in order, but the mean axes
 /// span no volume.
 TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
-  World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  World world = world_of(box_body({1, 1, 1}, 0.02, Model::kSprings, 0.3));
   Body& body = world.bodies[0];
   const auto& nodes = body.grid.nodes[0];
   for (int corner = 0; corner < 8; ++corner) {

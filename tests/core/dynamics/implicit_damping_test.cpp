@@ -23,7 +23,7 @@ constexpr double kLength = 0.2;
 World damped_bar(double damping) {
   Material material = test_material(0.3, 1e5);
   material.damping = damping;
-  return world_of(make_body(make_box_grid({20, 4, 4}, kLength / 20), Model::kCalibrated, material));
+  return world_of(make_body(make_box_grid({20, 4, 4}, kLength / 20), Model::kSprings, material));
 }
 
 /// Twisted about its axis as its slowest torsional vibration is.

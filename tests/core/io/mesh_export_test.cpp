@@ -169,7 +169,7 @@ double stress_of_stretch(const Material& material, double stretch) {
 TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   const TempFolder folder;
   World world;
-  world.bodies.emplace_back(make_body(make_box_grid({2, 1, 1}, 0.1), Model::kCalibrated, test::test_material(0.3)));
+  world.bodies.emplace_back(make_body(make_box_grid({2, 1, 1}, 0.1), Model::kSprings, test::test_material(0.3)));
   const Points rest = world.bodies[0].rest_positions;
   Points stretched = rest;
   stretched.col(0) *= 1.1;

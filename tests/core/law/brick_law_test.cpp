@@ -52,7 +52,7 @@ Mat3 face_forces(const Eigen::Matrix<double, 24, 1>& force) {
 /// A sheared brick with inner diagonals also presses its corners in a pattern that sums to nothing on every face and
 /// that its neighbours cancel, so forces are compared face by face.
 TEST(BrickLaw, UniformStrainAnswersLikeIsotropicElasticity) {
-  for (const Model model : {Model::kCalibrated, Model::kTensile, Model::kM1}) {
+  for (const Model model : {Model::kSprings, Model::kTensile, Model::kM1}) {
     for (const double poisson : kPoissonRatios) {
       if (model == Model::kM1 && poisson < 0) continue;  // M1 has no springs for it
       const Material material = test_material(poisson);
@@ -123,7 +123,7 @@ TEST(BrickLaw, GuardResistsTheLossOfVolume) {
     CornerVectors<double> force{};
     return brick_forces<double>(law, kSide, x, nullptr, force);
   };
-  for (const Model model : {Model::kCalibrated, Model::kTensile, Model::kM1}) {
+  for (const Model model : {Model::kSprings, Model::kTensile, Model::kM1}) {
     const BrickLaw law = brick_law(model, material, kSide);
     BrickLaw unguarded = law;
     unguarded.guard = 0;
@@ -162,7 +162,7 @@ TEST(BrickLaw, ZeroModesAreSixCalibratedAndNineTensile) {
       const Eigen::SelfAdjointEigenSolver<BrickMatrix> solver(rest_stiffness(model, material, kSide));
       const double tiny = 1e-10 * material.young * kSide;
       const auto zeros = (solver.eigenvalues().array().abs() < tiny).count();
-      EXPECT_EQ(zeros, model == Model::kCalibrated ? 6 : 9) << model_name(model) << " nu " << poisson;
+      EXPECT_EQ(zeros, model == Model::kSprings ? 6 : 9) << model_name(model) << " nu " << poisson;
       EXPECT_GT(solver.eigenvalues().minCoeff(), -tiny) << model_name(model) << " nu " << poisson;
     }
   }
@@ -171,7 +171,7 @@ TEST(BrickLaw, ZeroModesAreSixCalibratedAndNineTensile) {
 TEST(BrickLaw, CalibratedIsStableForAuxeticMaterials) {
   for (const double poisson : {-0.9, -0.5, 0.499}) {
     const Material material = test_material(poisson);
-    const Eigen::SelfAdjointEigenSolver<BrickMatrix> solver(rest_stiffness(Model::kCalibrated, material, kSide));
+    const Eigen::SelfAdjointEigenSolver<BrickMatrix> solver(rest_stiffness(Model::kSprings, material, kSide));
     EXPECT_GT(solver.eigenvalues().minCoeff(), -1e-10 * material.young * kSide) << poisson;
   }
   EXPECT_THROW((void)brick_law(Model::kTensile, test_material(-0.3), kSide), Error);
@@ -199,7 +199,7 @@ TEST(BrickLaw, OnlyTheNegativePartOfTheAxialCorrectionIsOnTheMeanAxes) {
 TEST(BrickLaw, NoCorrectionOfTheCalibratedBrickIsNegative) {
   for (double poisson = -0.9; poisson < 0.499; poisson += 0.1) {
     const Material material = test_material(poisson);
-    const BrickLaw law = brick_law(Model::kCalibrated, material, kSide);
+    const BrickLaw law = brick_law(Model::kSprings, material, kSide);
     const double rounding = -1e-12 * material.young * kSide;
     EXPECT_GE(law.face, 0) << poisson;
     EXPECT_GE(law.inner, 0) << poisson;
@@ -215,7 +215,7 @@ TEST(BrickLaw, NoCorrectionOfTheCalibratedBrickIsNegative) {
 TEST(BrickLaw, CalibratedBendsAndTwistsLikeTheContinuum) {
   for (const double poisson : kPoissonRatios) {
     const Material material = test_material(poisson);
-    const BrickMatrix stiffness = rest_stiffness(Model::kCalibrated, material, kSide);
+    const BrickMatrix stiffness = rest_stiffness(Model::kSprings, material, kSide);
     const double plate = material.young / (1 - poisson * poisson);
     const double fifth = std::pow(kSide, 5) / 12;  // integral of y^2 over the cube
     for (int axis = 0; axis < 3; ++axis) {

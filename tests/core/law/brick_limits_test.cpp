@@ -80,7 +80,7 @@ const Material kMaterial{.name = "test", .young = 1000, .poisson = 0.3, .density
 
 Body body_of(BrickGrid grid, bool corner_coupling) {
   Body body = make_body(std::move(grid), Model::kFem, kMaterial);
-  const BrickMatrix stiffness = test::rest_stiffness(Model::kCalibrated, kMaterial, body.grid.brick_size);
+  const BrickMatrix stiffness = test::rest_stiffness(Model::kSprings, kMaterial, body.grid.brick_size);
   body.small_strain_stiffness = corner_coupling ? stiffness : without_corner_coupling(stiffness);
   return body;
 }
@@ -91,7 +91,7 @@ double bar_torque(int across, bool twist_coupling) {
   const double h = 0.1 / across;
   Body body = body_of(make_box_grid({4 * across, across, across}, h), true);
   if (twist_coupling) {
-    const double face = brick_law(Model::kCalibrated, kMaterial, h).face;
+    const double face = brick_law(Model::kSprings, kMaterial, h).face;
     body.small_strain_stiffness = with_twist_coupling(body.small_strain_stiffness, face);
   }
   const double angle = 10 * std::numbers::pi / 180;
@@ -174,7 +174,7 @@ double bracket_sag(int across, bool corner_coupling, double corner_stiffness) {
 
 TEST(BrickLimits, WithoutTheCornerCouplingTheXyzModesAreTheHexahedrons) {
   const BrickMatrix hexahedron = hexahedron_stiffness(kMaterial, 0.1);
-  const BrickMatrix brick = test::rest_stiffness(Model::kCalibrated, kMaterial, 0.1);
+  const BrickMatrix brick = test::rest_stiffness(Model::kSprings, kMaterial, 0.1);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Matrix<double, 24, 1> mode = 8 * share_of_mode(axis, kXyz).transpose();
     const double size = (hexahedron * mode).norm();

@@ -329,10 +329,9 @@ TEST(CrossingGuard, MovingObstaclesPushWithoutEntering) {
 TEST(CrossingGuard, WhatIsDrawnDoesNotEnterTheGround) {
   const SurfaceMesh mesh = test::torus_mesh(0.05, 0.03);
   const Solid solid = find_solids(mesh, "torus").solids.front();
-  FilledSolid filled = fill_solid(solid, 0.02, bricks_for(Model::kCalibrated));
+  FilledSolid filled = fill_solid(solid, 0.02, bricks_for(Model::kSprings));
   World world;
-  world.bodies.push_back(
-      make_soft_body(mesh, solid, std::move(filled.grid), Model::kCalibrated, test_material(0.3, 2e4)));
+  world.bodies.push_back(make_soft_body(mesh, solid, std::move(filled.grid), Model::kSprings, test_material(0.3, 2e4)));
   SoftBody& torus = world.bodies[0];
   place(torus, Eigen::AngleAxisd(1, Vec3(1, 0, 0.3).normalized()).toRotationMatrix(), Vec3(0, 0.09, 0));
   torus.velocities.col(1).setConstant(-1.5);

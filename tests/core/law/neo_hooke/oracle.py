@@ -1,4 +1,4 @@
-"""One brick of the model neo-hooke, written down as plainly as possible: what the program is compared with.
+"""One brick of the default model, written down as plainly as possible: what the program is compared with.
 
 SI units. Corner c of a brick lies on the high side of axis i where bit i of c is set (x is bit 0). What a brick knows of
 its solid: `volume` (m^3), `centroid` (from the brick's middle, in brick lengths) and `second`, the 3 x 3 second moments
@@ -19,7 +19,7 @@ import numpy as np
 Solid = namedtuple("Solid", "volume centroid second")
 SIDES = np.array([[1 if c >> axis & 1 else -1 for axis in range(3)] for c in range(8)])
 WARPING = 3
-LOWEST = 0.2  # volume ratio, below which the logarithm goes on as a parabola
+LOWEST = 0.1  # volume ratio, below which the logarithm goes on as a parabola
 
 
 def full_brick(h):
