@@ -103,7 +103,7 @@ std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
-/// Tells once of all parts of one body's solids that are thinner than its bricks, and what that does to them.
+/// Warns once of all parts of one body's solids that are thinner than its bricks.
 class ThinParts {
  public:
   ThinParts(const LoadedBody& body, Model model) : body_(body), model_(model) {}
@@ -119,19 +119,18 @@ class ThinParts {
     return parts;
   }
 
-  void tell(const Observer& observer) const {
+  void warn(const Observer& observer) const {
     if (count_ == 0) return;
     const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.position);
     const bool is_known = model_ == Model::kCalibrated;
-    const std::string text = fmt::format(
+    observer.warn(fmt::format(
         "{}: {} thinner than a brick ({}), in {}: {}; the thinnest, near ({:.4g}, {:.4g}, {:.4g}) of the file, is "
         "about {} thick{}",
         body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
         count_of(bricks_, "brick"),
         is_known ? "up to a fifth too stiff where they are curved" : "stiffer and blunter than they should be",
         place.x(), place.y(), place.z(), readable(thinnest_.thickness, Dimension::kLength),
-        is_known ? "" : ": bricks of that size would hold it");
-    is_known ? observer.note(text) : observer.warn(text);
+        is_known ? "" : ": bricks of that size would hold it"));
   }
 
  private:
@@ -152,7 +151,7 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& 
       const std::vector<ThinPart> found = parts.find(world.bodies[soft_body].grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
-    parts.tell(observer);
+    parts.warn(observer);
   }
 }
 

@@ -82,12 +82,11 @@ TEST_F(Inspect, WarnsAsAnimateDoesAndBothOnce) {
   std::string text = kCubeObj;
   text = std::regex_replace(text, std::regex("(v \\S+ \\S+) 1(\\s)"), "$1 0.02$2");
   static_cast<void>(folder_.write("plate.obj", text));
-  const ProgramRun seen = run("plate.obj --bricks 12 --model springs --json");
+  const ProgramRun seen = run("plate.obj --bricks 12 --json");
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
   EXPECT_NE(seen.out.find("plate.obj: 1 part is thinner than a brick"), std::string::npos) << seen.out;
   const ProgramRun made = run_program(
-      folder_,
-      "animate plate.obj --bricks 12 --model springs --duration 0.05 --fps 20 --resolution 160x120 --samples 1 -o out");
+      folder_, "animate plate.obj --bricks 12 --duration 0.05 --fps 20 --resolution 160x120 --samples 1 -o out");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto at = made.err.find("is thinner than a brick");
   EXPECT_NE(at, std::string::npos) << made.err;
