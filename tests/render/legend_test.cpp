@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/types.h"
 #include "tests/support/golden.h"
 
 namespace sprung {

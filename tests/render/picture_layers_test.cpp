@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "render/image/compare.h"
 #include "render/trace/ray_scene.h"
 #include "tests/support/still_life.h"
 
