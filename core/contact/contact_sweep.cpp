@@ -10,13 +10,9 @@
 namespace sprung {
 namespace {
 
-constexpr double kApproach = 0.5;         // of the way to the contact distance, by which features may approach per step
-constexpr double kNear = 0.25;            // of the contact distance: features that are nearer, or overlap, ...
-constexpr double kReleaseSteps = 20;      // ... separate within about so many steps,
-constexpr double kRecoveryTime = 0.05;    // and others within this time, s: in a few steps, resting bodies would throw
-                                          // each other off again and again;
-constexpr double kRecoveryHeight = 0.01;  // but no faster than from a fall by that part of the way
-constexpr double kYield = 0.2;            // of an impulse of glue: what it leaves of the velocity, times the mass there
+constexpr double kApproach = 0.5;  // of the way to the contact distance, by which features may approach per step
+constexpr double kRecoveryHeight = 0.005;  // features that overlap separate as after a fall by that part of it
+constexpr double kYield = 0.2;  // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 constexpr int kSweeps = 6;  // after one, stacks creep by 2 mm a second; after three, balls in a bowl do not rest
 
@@ -25,8 +21,8 @@ double min_speed(const AwakePair& pair, double speed, double gravity, double dt)
   const double rest = pair.gap - pair.reach;
   if (pair.restitution > 0 && speed < 0) return rest + speed * dt > 0 ? speed : -pair.restitution * speed;
   if (rest > 0) return -kApproach * rest / dt;
-  const double time = pair.gap < kNear * pair.reach ? kReleaseSteps * dt : kRecoveryTime;
-  return std::min(-rest / time, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kMinGravity) * rest));
+  const double recovery = std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kMinGravity) * rest);
+  return recovery * std::min(1.0, -rest / pair.reach);
 }
 
 }  // namespace

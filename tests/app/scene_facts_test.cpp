@@ -51,11 +51,10 @@ class FilmFacts {
   /// Speed of the body that moves fastest as a whole, m/s.
   [[nodiscard]] double travel_speed(int frame) const {
     double most = 0;
-    for (std::size_t row = 0; row < bodies(); ++row) most = std::max(most, travel_speed(frame, row));
+    for (std::size_t row = 0; row < bodies(); ++row) {
+      most = std::max(most, (middle(frame, row) - middle(frame - 1, row)).norm() * scene_.fps);
+    }
     return most;
-  }
-  [[nodiscard]] double travel_speed(int frame, std::size_t row) const {
-    return (middle(frame, row) - middle(frame - 1, row)).norm() * scene_.fps;
   }
   /// Speed of the fastest node of all bodies between the previous frame and this one, m/s.
   [[nodiscard]] double speed(int frame) const {
@@ -194,19 +193,16 @@ TEST_F(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
   const FilmFacts film("bowl", {{"body.bricks", "5"}});
   film.expect_sound();
   EXPECT_EQ(film.bodies(), 20U);
-  EXPECT_LT(film.travel_speed(film.last()), 0.05);
-  int rolling = 0;  // balls, which nothing but their damping stops
+  EXPECT_LT(film.travel_speed(film.last()), 0.02);
   for (std::size_t body = 0; body < film.bodies(); ++body) {
-    rolling += film.travel_speed(film.last(), body) > 0.01 ? 1 : 0;
     const Vec3 middle = film.middle(film.last(), body);
     EXPECT_LT(std::max(std::abs(middle.x()), std::abs(middle.z())), 0.12) << body;
     EXPECT_GT(middle.y(), 0.005) << body;
   }
-  EXPECT_LE(rolling, 3);
 }
 
 TEST_F(SceneFacts, StackOfFiveStands) {
-  const FilmFacts film("stack", {{"duration", "3"}});
+  const FilmFacts film("stack", {{"duration", "2"}});
   film.expect_sound();
   ASSERT_EQ(film.bodies(), 5U);
   double fastest = 0;  // of the last quarter of a second: all five swing together

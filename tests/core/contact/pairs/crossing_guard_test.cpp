@@ -260,7 +260,7 @@ TEST(CrossingGuard, LetsOutWhatOverlapsAtTheStart) {
     counts += counts_of_frame(world);
     highest = std::max(highest, world.bodies[3].positions.col(1).maxCoeff());
   }
-  EXPECT_LT(double(counts.impulses), 0.3 * double(counts.steps));
+  EXPECT_LT(double(counts.impulses), 0.05 * double(counts.steps));
   EXPECT_EQ(counts.failed, 0);
   EXPECT_LT(highest, 0.0899 + 0.03 + 0.002) << "shot";
   for (std::size_t row = 1; row < 4; ++row) {
