@@ -66,7 +66,6 @@ std::vector<std::size_t> LiveWorld::add(const SceneBody& body) {
 
 SceneMotion& LiveWorld::motion() {
   if (!motion_) {
-    stiffen_volume_guards(simulation_);
     motion_.emplace(simulation_, scene_);
   }
   return *motion_;
@@ -126,7 +125,6 @@ void LiveWorld::step(double dt, long count, const Between& between) {
   check(dt > 0 && std::isfinite(dt), "dt (s)", dt, "above 0");
   check(count >= 0, "count", double(count), "0 or above");
   World& world = simulation_.world;
-  stiffen_volume_guards(simulation_);
   double bricks = 0;
   for (const SoftBody& body : world.bodies) bricks += body.grid.brick_count();
   const long at_once = std::max(1L, long(kBrickStepsBetween / std::max(1.0, bricks)));

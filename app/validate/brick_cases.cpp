@@ -136,7 +136,7 @@ CaseResult run_patch(const Choice& choice) {
 
 CasePicture draw_patch() {
   constexpr double kMagnification = 20;
-  const Patch patch = strained_patch({3, 2, 2}, Model::kSprings, 0.3, strain_of(3));
+  const Patch patch = strained_patch({3, 2, 2}, Model::kCalibrated, 0.3, strain_of(3));
   return {draw_body(patch.body, {.magnification = kMagnification}),
           fmt::format("3×2×2 bricks in shear, ν = 0.3, displacements magnified {:g} times", kMagnification)};
 }
@@ -174,7 +174,7 @@ CaseResult run_equations(const Choice& choice) {
 
 CaseResult run_uniaxial(const Choice& choice) {
   const Material material = light_material(1, choice.poisson.value_or(0.3));
-  constexpr std::array<Model, 4> kModels{Model::kCalibrated, Model::kSprings, Model::kTensile, Model::kM1};
+  constexpr std::array<Model, 3> kModels{Model::kCalibrated, Model::kTensile, Model::kM1};
   std::vector<UniaxialLaw> laws;  // those that can be evaluated
   CaseResult result;
   for (const UniaxialLaw& law : uniaxial_laws(kModels, material)) {

@@ -31,10 +31,9 @@ struct Case {
 [[nodiscard]] std::span<const Case> built_in_cases();
 
 /// The case of a scene file, named after it. Runs the scene with every model, Poisson's ratio and grid of its
-/// experiment and compares with its expectations. Checks of runs that fail measure NaN and say why. One more check per
-/// spring model compares the smallest volume of any brick in any frame with the bound below which the volume guard
-/// acts: if it passes, the guard had no influence. Throws Error(kBadInput) if the scene is wrong or expects nothing;
-/// running it throws also if it expects a quantity that it does not have.
+/// experiment and compares with its expectations. Checks of runs that fail measure NaN and say why. Throws
+/// Error(kBadInput) if the scene is wrong or expects nothing; running it throws also if it expects a quantity that it
+/// does not have.
 [[nodiscard]] Case scene_case(const std::filesystem::path& file);
 
 /// The cases of these names or scene files, scenes first; all that come with the program if there are no words. Throws

@@ -16,10 +16,7 @@ std::string result_text(const Check& check) {
 
 }  // namespace
 
-double Check::error() const {
-  if (is_least && measured >= expected) return 0;
-  return expected == 0 ? measured : measured / expected - 1;
-}
+double Check::error() const { return expected == 0 ? measured : measured / expected - 1; }
 
 bool Check::is_gate() const { return !std::isnan(tolerance); }
 
@@ -49,7 +46,7 @@ std::string source_text(const Check& check) {
 std::string check_line(const Check& check) {
   return fmt::format("{:<22} {:<20} {:<10} nu {:<5} {:<8} {:>13} {:>13} {:<4} {:>10} {:>9} {:<4}  {}", check.experiment,
                      check.quantity, check.model, check.poisson, check.grid, number_text(check.measured),
-                     fmt::format("{}{}", check.is_least ? ">= " : "", number_text(check.expected)), check.unit,
+                     number_text(check.expected), check.unit,
                      fmt::format("{}{}", check.error() > 0 ? "+" : "", error_text(check)), tolerance_text(check),
                      result_text(check), source_text(check));
 }
@@ -86,7 +83,6 @@ std::string checks_json(const std::vector<Check>& checks) {
                      {"unit", check.unit},
                      {"error", check.error()},
                      {"tolerance", check.tolerance},
-                     {"is_least", check.is_least},
                      {"passed", check.is_gate() ? Json(check.passed()) : Json()},
                      {"trouble", check.trouble},
                      {"source", check.source}});

@@ -24,7 +24,6 @@ struct Check {
   std::string unit{};
   std::string source{};     // of the expected value
   double tolerance = kNaN;  // relative (absolute if 0 is expected); NaN: reported only
-  bool is_least = false;    // `expected` is a lower bound
   std::string trouble{};    // why the run failed
 
   /// measured / expected - 1; the difference if 0 is expected; 0 if a lower bound is met.

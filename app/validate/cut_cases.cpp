@@ -30,36 +30,33 @@ SupportedBody supported_at(const Body& body, int axis, const Vec3& acceleration)
 CaseResult run_cut(const Choice& choice, const Observer& observer) {
   CaseResult result;
   if (choice.bricks || choice.poisson) return result;  // each has its own
-  std::vector<Model> models{Model::kCalibrated, Model::kSprings};
-  if (choice.model) models = {*choice.model};
+  const Model model = choice.model.value_or(Model::kCalibrated);
   std::vector<CutPart> parts;
   for (const auto& some : {thin_parts(), turned_parts(), strained_parts()}) {
     parts.insert(parts.end(), some.begin(), some.end());
   }
   for (const CutPart& part : parts) {
-    for (const Model model : models) {
-      observer.check_interrupt();
-      std::vector<double> measured(part.figures.size(), kNaN);
-      std::string trouble;
-      try {
-        measured = part.measure(model);
-      } catch (const Error& error) {
-        trouble = error.what();
-      }
-      for (std::size_t i = 0; i < measured.size(); ++i) {
-        const CutFigure& figure = part.figures[i];
-        result.checks.push_back({.experiment = "cut",
-                                 .quantity = figure.quantity,
-                                 .model = std::string(model_name(model)),
-                                 .poisson = part.poisson,
-                                 .grid = part.bricks,
-                                 .measured = measured[i],
-                                 .expected = figure.expected,
-                                 .unit = figure.unit,
-                                 .source = figure.source,
-                                 .tolerance = model == Model::kCalibrated ? figure.tolerance : kNaN,
-                                 .trouble = trouble});
-      }
+    observer.check_interrupt();
+    std::vector<double> measured(part.figures.size(), kNaN);
+    std::string trouble;
+    try {
+      measured = part.measure(model);
+    } catch (const Error& error) {
+      trouble = error.what();
+    }
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const CutFigure& figure = part.figures[i];
+      result.checks.push_back({.experiment = "cut",
+                               .quantity = figure.quantity,
+                               .model = std::string(model_name(model)),
+                               .poisson = part.poisson,
+                               .grid = part.bricks,
+                               .measured = measured[i],
+                               .expected = figure.expected,
+                               .unit = figure.unit,
+                               .source = figure.source,
+                               .tolerance = model == Model::kCalibrated ? figure.tolerance : kNaN,
+                               .trouble = trouble});
     }
   }
   return result;

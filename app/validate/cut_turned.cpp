@@ -60,7 +60,7 @@ void add_free(std::vector<CutPart>& parts) {
     std::string bricks;
     double expected;  // Hz
   };
-  // Of whole bricks of the model springs, 12 across the beam and 8 across the plate.
+  // Of whole bricks of springs calibrated in bending and torsion too, 12 across the beam and 8 across the plate.
   constexpr double kOfBeam = 0.006968;
   constexpr double kOfPlate = 0.005115;
   const std::vector<Free> bodies{{"beam", {12, 1, 1}, 1, "1 across", kOfBeam},

@@ -82,7 +82,7 @@ MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeigh
 std::vector<RectangleModel> rectangle_models(const std::optional<Model>& model) {
   if (!model) return {RectangleModel::kCalibrated, RectangleModel::kCorrected, RectangleModel::kPlain};
   if (*model == Model::kFem) return {};
-  if (*model == Model::kCalibrated || *model == Model::kSprings) return {RectangleModel::kCalibrated};
+  if (*model == Model::kCalibrated) return {RectangleModel::kCalibrated};
   const bool is_corrected = *model == Model::kTensile || *model == Model::kM1;
   return {is_corrected ? RectangleModel::kCorrected : RectangleModel::kPlain};
 }

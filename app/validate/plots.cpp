@@ -27,14 +27,13 @@ struct ModelStyle {
   double width;
 };
 
-constexpr std::array<ModelStyle, 7> kStyles{
+constexpr std::array<ModelStyle, 6> kStyles{
     {{"calibrated", "calibrated (default)", ink::kBlue, Marker::kCircle, false, 3.2},
      {"fem", "fem (hexahedron)", ink::kVermilion, Marker::kSquare, false, 2},
      {"tensile", "tensile (the paper)", ink::kGreen, Marker::kDiamond, false, 2},
      {"m1", "m1 (the paper)", ink::kPurple, Marker::kTriangle, false, 2},
      {"m2-plain", "m2-plain", ink::kGrey, Marker::kCross, true, 1.6},
-     {"m1-plain", "m1-plain", ink::kOrange, Marker::kCross, true, 1.6},
-     {"springs", "springs", ink::kSky, Marker::kCircle, false, 2}}};
+     {"m1-plain", "m1-plain", ink::kOrange, Marker::kCross, true, 1.6}}};
 
 bool is_same_ratio(double a, double b) { return std::abs(a - b) < 1e-9; }
 

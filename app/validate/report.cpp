@@ -80,10 +80,10 @@ std::string full_table(const std::vector<Check>& checks) {
                      {with_minus(number_text(check.poisson)), "n"},
                      {escaped(check.grid)},
                      {with_minus(number_text(check.measured)), "n"},
-                     {(check.is_least ? "≥ " : "") + with_minus(number_text(check.expected)), "n"},
+                     {with_minus(number_text(check.expected)), "n"},
                      {escaped(check.unit)},
-                     {check.is_least ? "" : with_minus(error_text(check)), "n"},
-                     {check.is_least ? "" : tolerance_text(check), "n"},
+                     {with_minus(error_text(check)), "n"},
+                     {tolerance_text(check), "n"},
                      result,
                      {fmt::format("[{}]", source - sources.begin() + 1)}},
                     !check.passed()   ? "fail"
@@ -119,7 +119,6 @@ struct Matrix {
       if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
     };
     for (const Check& check : checks) {
-      if (check.is_least) continue;  // one per model
       const std::string ratio = fmt::format("ν = {:g}", check.poisson);
       const std::string column = by_ratio ? ratio : check.grid;
       const Key key{check.quantity, check.source, rows_name_rest ? (by_ratio ? check.grid : ratio) : "", check.model};

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "app/scene/scene_file.h"
 #include "app/validate/cases.h"
@@ -81,19 +80,6 @@ Eigen::Vector3i grid_counts(const Film& film, const BrickVariant& variant) {
   const SceneBody& body = film.bodies.front();
   if (!body.box) return Eigen::Vector3i::Constant(variant.bricks);
   return (*body.box * variant.bricks / body.box->maxCoeff()).array().round().cast<int>();
-}
-
-/// Smallest volume of any brick in any frame over its volume at rest; leaves the bodies in the last frame.
-double smallest_volume(Simulation& simulation, const Recording& recording) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const std::vector<Floats3>& frame : recording.frames) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      Body& body = simulation.world.bodies[i];
-      body.positions = frame[i].cast<double>();
-      smallest = std::min(smallest, smallest_volume_ratio(body));
-    }
-  }
-  return smallest;
 }
 
 struct Measurement {
@@ -181,29 +167,10 @@ class Runs {
         check.tolerance = std::fmin(check.tolerance, std::abs(other.error()) * (1 + kAsGood));
       }
     }
-    std::set<std::string, std::less<>> gated;  // models; the volumes of the others are only reported
-    for (const Check& check : result_.checks) {
-      if (check.is_gate()) gated.insert(check.model);
-    }
-    for (const auto& [model, volume] : volumes_) {
-      Check& check = add_check("smallest.volume", volume.variant, {});
-      check.measured = volume.smallest;
-      check.expected = volume.bound;
-      check.is_least = true;
-      if (gated.empty() || gated.count(model_name(model)) > 0) check.tolerance = 0;
-      check.source = "the guard acts on bricks below this share of their rest volume; the worst run of the model";
-    }
     return std::move(result_);
   }
 
  private:
-  /// The run of a model with the smallest volume of a brick, over its volume at rest.
-  struct Volume {
-    BrickVariant variant;
-    double smallest;
-    double bound;
-  };
-
   Outcome simulate_variant(const BrickVariant& variant) {
     const Observer silent;
     Outcome outcome;
@@ -219,11 +186,6 @@ class Runs {
         errors.model = model_name(variant.model);
         errors.poisson = variant.poisson;
         errors.grid = grid_text(variant);
-      }
-      if (has_springs(variant.model)) {
-        const Volume volume{variant, smallest_volume(simulation, *outcome.recording), body.law.guard_ratio};
-        const auto [place, is_new] = volumes_.try_emplace(variant.model, volume);
-        if (volume.smallest < place->second.smallest) place->second = volume;
       }
     } catch (const Error& error) {
       outcome.recording.reset();
@@ -273,7 +235,6 @@ class Runs {
   std::vector<KnownSolution> known_;
   CaseResult result_;
   std::vector<std::pair<std::size_t, Model>> rivals_;  // checks whose tolerance is the error of another model
-  std::map<Model, Volume> volumes_;
 };
 
 CaseResult run_experiment(const std::string& name, const Film& film, const Choice& choice, const Observer& observer) {

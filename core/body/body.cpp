@@ -132,12 +132,10 @@ double smallest_volume_ratio(const Body& body) {
   return smallest;
 }
 
-int inverted_bricks(const Body& body) { return flattened_bricks(body, 0); }
-
-int flattened_bricks(const Body& body, double ratio) {
+int inverted_bricks(const Body& body) {
   int count = 0;
   for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
-    count += volume_ratio(body, brick) <= ratio ? 1 : 0;
+    count += volume_ratio(body, brick) <= 0 ? 1 : 0;
   }
   return count;
 }

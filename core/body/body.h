@@ -71,8 +71,6 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation);
 [[nodiscard]] double smallest_volume_ratio(const Body& body);
 /// The number of inverted bricks.
 [[nodiscard]] int inverted_bricks(const Body& body);
-/// The number of bricks that keep at most this share of their volume.
-[[nodiscard]] int flattened_bricks(const Body& body, double ratio);
 
 /// A quantity at the eight corners of a brick (positions in m, velocities in m/s), a column each.
 using BrickColumns = Eigen::Matrix<double, 3, 8>;

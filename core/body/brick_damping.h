@@ -27,7 +27,7 @@ SpringDirections<T> spring_directions(double h, const CornerVectors<T>& x) {
 }
 
 /// Adds K_along u (N) to `product`: the axial stiffness of the springs of full bricks, as used by damping, without the
-/// geometric stiffness of their tensions and without the guard.
+/// geometric stiffness of their tensions.
 template <class T>
 void damping_product(const BrickLaw& law, const SpringDirections<T>& directions, const CornerVectors<T>& u,
                      CornerVectors<T>& product) {

@@ -61,52 +61,22 @@ void add_diagonals(BrickMatrix& hessian, const Pairs& pairs, double rest, double
   }
 }
 
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-using AxesMatrix = Eigen::Matrix<double, 9, 9>;  // in the three mean axes
-
-void add_axes_correction(AxesMatrix& second, const BrickLaw& law, double h,
-                         const std::array<std::array<double, 3>, 3>& axes) {
+/// Adds the correction on the mean axes.
+void add_axes(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
   if (law.axes == 0) return;
-  Eigen::Matrix<double, 9, 1> slope;
+  const auto axes = detail::mean_axes(x);
+  Eigen::Matrix<double, 9, 1> slope;  // by the three mean axes
   double stretch = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto spring = detail::measure(axes[i], h);
     slope.segment<3>(3 * int(i)) = to_vector(spring.direction);
     stretch += spring.stretch;
   }
-  second += law.axes * slope * slope.transpose();
+  Eigen::Matrix<double, 9, 9> second = law.axes * slope * slope.transpose();
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 3 * int(i);
     second.block<3, 3>(row, row) += sideways(slope.segment<3>(row), law.axes * stretch, to_vector(axes[i]).norm());
   }
-}
-
-void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std::array<Vec3, 3>& axes) {
-  const double deficit = law.guard_ratio - axes[0].dot(axes[1].cross(axes[2])) / volume;
-  if (deficit <= 0) return;
-  Eigen::Matrix<double, 9, 1> slope;
-  slope << axes[1].cross(axes[2]), axes[2].cross(axes[0]), axes[0].cross(axes[1]);
-  slope /= volume;
-  second += law.guard * slope * slope.transpose();
-  // d(a_{i+1} x a_{i+2}) / d a_{i+1} = -[a_{i+2}], and the transposed block opposite.
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const Mat3 block = law.guard * deficit / volume * cross_matrix(axes[(i + 2) % 3]);
-    second.block<3, 3>(3 * i, 3 * j) += block;
-    second.block<3, 3>(3 * j, 3 * i) += block.transpose();
-  }
-}
-
-void add_axes(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
-  const auto axes = detail::mean_axes(x);
-  AxesMatrix second = AxesMatrix::Zero();
-  add_axes_correction(second, law, h, axes);
-  add_guard(second, law, h * h * h, {to_vector(axes[0]), to_vector(axes[1]), to_vector(axes[2])});
   Eigen::Matrix<double, 9, 24> axes_by_corner = Eigen::Matrix<double, 9, 24>::Zero();
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {

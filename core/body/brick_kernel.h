@@ -32,11 +32,6 @@ T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-template <class T>
-std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Stretch as (L^2 - rest^2) / (L + rest): the difference of two nearly equal lengths would lose half its digits.
 template <class T>
 Spring<T> measure(const std::array<T, 3>& vector, double rest) {
@@ -56,30 +51,19 @@ void pull(CornerVectors<T>& force, CornerPair pair, const std::array<T, 3>& dire
   }
 }
 
-/// Tensions of the twelve edges for their stretches (both N and m, edge by edge): the springs, the axial correction on
-/// the mean stretches and the bending correction on the bending stretches. Linear and symmetric.
+/// Tensions of the twelve edges for their stretches (both N and m, edge by edge): the springs and the axial correction
+/// on the mean stretches. Linear and symmetric.
 template <class T>
 std::array<T, 12> edge_tensions(const BrickLaw& law, const std::array<T, 12>& stretch) {
   std::array<T, 3> mean;
-  std::array<std::array<T, 2>, 3> bend;  // [axis][0: gradient in j = axis + 1, 1: in k = axis + 2]
   for (std::size_t i = 0; i < 3; ++i) {
     const T* s = &stretch[4 * i];
     mean[i] = 0.25 * ((s[0] + s[1]) + (s[2] + s[3]));
-    bend[i][0] = 0.25 * ((s[1] - s[0]) + (s[3] - s[2]));
-    bend[i][1] = 0.25 * ((s[2] - s[0]) + (s[3] - s[1]));
   }
   std::array<T, 12> tension;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    const T axial = 0.25 * (law.axial_self * mean[i] + law.axial_cross * (mean[j] + mean[k]));
-    // The partner of b_ij is b_kj: the other axis that sees the gradient j, where j is its axis + 2.
-    const T in_j = 0.25 * (law.bending_self * bend[i][0] + law.bending_cross * bend[k][1]);
-    const T in_k = 0.25 * (law.bending_self * bend[i][1] + law.bending_cross * bend[j][0]);
-    tension[4 * i] = law.edge * stretch[4 * i] + (axial - in_j - in_k);
-    tension[4 * i + 1] = law.edge * stretch[4 * i + 1] + (axial + in_j - in_k);
-    tension[4 * i + 2] = law.edge * stretch[4 * i + 2] + (axial - in_j + in_k);
-    tension[4 * i + 3] = law.edge * stretch[4 * i + 3] + (axial + in_j + in_k);
+    const T axial = 0.25 * (law.axial_self * mean[i] + law.axial_cross * (mean[(i + 1) % 3] + mean[(i + 2) % 3]));
+    for (std::size_t e = 4 * i; e < 4 * i + 4; ++e) tension[e] = law.edge * stretch[e] + axial;
   }
   return tension;
 }
@@ -111,43 +95,29 @@ void pull_axes(CornerVectors<T>& force, const std::array<std::array<T, 3>, 3>& p
   }
 }
 
-/// The energy terms of the mean axes only, their own correction and the volume guard; adds their forces. `rates` as in
-/// brick_forces.
+/// The energy of the correction on the mean axes; adds its forces. `rates` as in brick_forces.
 template <class T>
 T axes_energy(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>* rates,
               CornerVectors<T>& force) {
-  using std::max;
   const auto axes = mean_axes(x);
-  const double volume = h * h * h;
-  const std::array<std::array<T, 3>, 3> areas{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
-                                              cross(axes[0], axes[1])};
-  const T deficit = max(law.guard_ratio - dot(axes[0], areas[0]) * (1 / volume), T(0.0));
-  const T push = law.guard / volume * deficit;
-  T energy = 0.5 * law.guard * deficit * deficit;
+  const std::array<Spring<T>, 3> springs{measure(axes[0], h), measure(axes[1], h), measure(axes[2], h)};
+  const T stretch = springs[0].stretch + springs[1].stretch + springs[2].stretch;
+  T driving = stretch;
+  if (rates != nullptr) {
+    const auto rate_axes = mean_axes(*rates);
+    for (std::size_t i = 0; i < 3; ++i) driving += dot(springs[i].direction, rate_axes[i]);
+  }
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = T(0.0) - push * areas[i][k];
-  }
-  if (law.axes != 0) {
-    const std::array<Spring<T>, 3> springs{measure(axes[0], h), measure(axes[1], h), measure(axes[2], h)};
-    const T stretch = springs[0].stretch + springs[1].stretch + springs[2].stretch;
-    energy += 0.5 * law.axes * stretch * stretch;
-    T driving = stretch;
-    if (rates != nullptr) {
-      const auto rate_axes = mean_axes(*rates);
-      for (std::size_t i = 0; i < 3; ++i) driving += dot(springs[i].direction, rate_axes[i]);
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) pulls[i][k] += law.axes * driving * springs[i].direction[k];
-    }
+    for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = law.axes * driving * springs[i].direction[k];
   }
   pull_axes(force, pulls);
-  return energy;
+  return 0.5 * law.axes * stretch * stretch;
 }
 
 }  // namespace detail
 
-/// Elastic energy (J) of full bricks of side h with corners at x (m), guard included; adds the forces (N) to `force`.
+/// Elastic energy (J) of full bricks of side h with corners at x (m); adds the forces (N) to `force`.
 /// If `rates` is given, it holds beta times the corner velocities (m): each spring's tension then follows stretch +
 /// beta * rate of stretch. The energy excludes that part.
 template <class T>
@@ -183,14 +153,7 @@ T brick_forces(const BrickLaw& law, double h, const CornerVectors<T>& x, const C
   diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
   diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
 
-  return energy + detail::axes_energy(law, h, x, rates, force);
-}
-
-/// Signed volume of a brick by its mean axes, m^3.
-template <class T>
-T brick_volume(const CornerVectors<T>& x) {
-  const auto axes = detail::mean_axes(x);
-  return detail::dot(axes[0], detail::cross(axes[1], axes[2]));
+  return law.axes == 0 ? energy : energy + detail::axes_energy(law, h, x, rates, force);
 }
 
 }  // namespace sprung

@@ -210,7 +210,6 @@ const BrickModel& brick_model(Model model) {
       return hexahedra;
     case Model::kCalibrated:
       return solids;
-    case Model::kSprings:
     case Model::kTensile:
     case Model::kM1:
     case Model::kM2Plain:

@@ -18,8 +18,6 @@ using EdgeCoupling = std::array<std::array<double, 12>, 12>;
 
 namespace detail {
 
-inline double step_above_zero(double value) { return value > 0 ? 1.0 : 0.0; }
-
 /// Tensions of the three mean axes for their stretches.
 template <class T>
 std::array<T, 3> axes_tensions(const BrickLaw& law, const std::array<T, 3>& stretch) {
@@ -27,11 +25,10 @@ std::array<T, 3> axes_tensions(const BrickLaw& law, const std::array<T, 3>& stre
   return {tension, tension, tension};
 }
 
-/// The mean axes' part of stiffness_product(): their correction and the guard.
+/// The mean axes' part of stiffness_product().
 template <class T>
 void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>& u,
                       CornerVectors<T>& product) {
-  using std::max;
   const auto a = mean_axes(x);
   const auto da = mean_axes(u);
   std::array<Spring<T>, 3> springs;
@@ -44,24 +41,11 @@ void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, 
   }
   const std::array<T, 3> tensions = axes_tensions(law, stretch);
   const std::array<T, 3> tension_rates = axes_tensions(law, rates);
-  const double volume = h * h * h;
-  const std::array<std::array<T, 3>, 3> areas{cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
-  const T deficit = max(law.guard_ratio - dot(a[0], areas[0]) * (1 / volume), T(0.0));
-  const T slope = (1 / volume) * (dot(da[0], areas[0]) + dot(da[1], areas[1]) + dot(da[2], areas[2]));
-  const T guard = law.guard / volume * step_above_zero(deficit) * slope;
-  const T push = law.guard / volume * deficit;
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
     const T sideways = tensions[i] / (stretch[i] + h);
     const T along = tension_rates[i] - sideways * rates[i];
-    const auto first = cross(da[j], a[k]);
-    const auto second = cross(a[j], da[k]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      pulls[i][c] =
-          along * springs[i].direction[c] + sideways * da[i][c] + guard * areas[i][c] - push * (first[c] + second[c]);
-    }
+    for (std::size_t c = 0; c < 3; ++c) pulls[i][c] = along * springs[i].direction[c] + sideways * da[i][c];
   }
   CornerVectors<T> force;
   force.fill(T(0.0));
@@ -110,7 +94,7 @@ void stiffness_product(const BrickLaw& law, double h, const CornerVectors<T>& x,
   };
   diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
   diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
-  detail::add_axes_product(law, h, x, u, product);
+  if (law.axes != 0) detail::add_axes_product(law, h, x, u, product);
 }
 
 namespace detail {
@@ -215,7 +199,7 @@ void add_spring(CornerPair pair, const std::array<T, 3>& d, const T& along, cons
 }  // namespace detail
 
 /// K of full bricks of side h with corners at x, as an anchored matrix, N/m; the axial part of the springs times
-/// `material`. Without the guard.
+/// `material`.
 template <class T>
 void anchored_stiffness(const BrickLaw& law, const EdgeCoupling& coupling, double h, double material,
                         const CornerVectors<T>& x, std::array<T, kAnchoredSize>& matrix) {

@@ -19,7 +19,7 @@ class SpringSystem {
   /// The second derivative of the elastic energy times u (3 m). Solid bricks only.
   void multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
-  /// `factor` times the axial stiffness of the springs (without the guard and the geometric stiffness), or times
+  /// `factor` times the axial stiffness of the springs (without the geometric stiffness), or times
   /// BrickModel::damping(), times u (3 m): the damping forces of rates u, with nodes at `positions` (m x 3, m), times
   /// -factor / beta.
   void multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
@@ -61,11 +61,11 @@ struct ForceWorkspace {
   CornerSums bricks;  // models without springs
 };
 
-/// Forces of all bricks on the nodes, m x 3, N: elastic, guard, and beta damping (at body.velocities), without gravity
+/// Forces of all bricks on the nodes, m x 3, N: elastic, and beta damping (at body.velocities), without gravity
 /// and alpha damping. The same bits for any number of threads.
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 
-/// Elastic energy stored in the bricks, J, guard included.
+/// Elastic energy stored in the bricks, J.
 [[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
 

@@ -16,8 +16,7 @@ namespace {
 constexpr int kStepsBetweenLooks = 8;
 constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
-constexpr double kCrushedShare = 0.05;  // of the bricks
-constexpr double kUnfoldSteps = 20;     // a brick found too flat or inverted recovers within about this many steps
+constexpr double kUnfoldSteps = 20;  // a brick found too flat or inverted recovers within about this many steps
 constexpr double kFastestRecovery =
     0.02;  // of the speed of sound, at which its corners separate: adds negligible energy
 
@@ -50,31 +49,6 @@ double smallest_volume(const BrickColumns& x) {
 }
 
 }  // namespace
-
-double impact_speed(const World& world) {
-  const bool is_alone = world.obstacles.empty() && (world.bodies.size() < 2 || !world.bodies_collide);
-  if (is_alone) return 0;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const SoftBody& body : world.bodies) lowest = std::min(lowest, body.positions.col(1).minCoeff());
-  double highest = lowest;
-  double fastest = 0;
-  for (const SoftBody& body : world.bodies) {
-    highest = std::max(highest, body.positions.col(1).minCoeff());
-    fastest = std::max(fastest, largest_speed(body));
-  }
-  for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
-  return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));
-}
-
-void stiffen_volume_guard(Body& body, double gravity, double speed) {
-  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
-  const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed * speed);
-  body.law.guard *= std::max(1.0, pressure / body.material.young);
-}
-
-int guarded_bricks(const Body& body) { return flattened_bricks(body, body.law.guard_ratio); }
-
-bool is_crushed(const Body& body) { return guarded_bricks(body) > kCrushedShare * body.grid.brick_count(); }
 
 void InversionGuard::look(const Body& body, double dt) {
   const double least = kSuspectVolume * body.grid.brick_volume();

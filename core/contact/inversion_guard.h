@@ -7,28 +7,10 @@
 namespace sprung {
 
 /// At each of its corners, and between its mean axes, a brick keeps at least this share of its volume: like a sponge
-/// whose pores are closed, it yields no further. The volume guard of its law acts below 0.3 and grows with the
-/// stiffness; this does not. Corners are checked because springs cannot tell orientation there either: a brick that is
-/// merely folded, with its mean axes in order, is in a state that the springs' corrections can drive on without end.
-/// And a brick can be inverted between corners that are all in order.
+/// whose pores are closed, it yields no further. Corners are checked because springs cannot tell orientation there
+/// either: a brick that is merely folded, with its mean axes in order, is in a state that the springs' corrections can
+/// drive on without end. And a brick can be inverted between corners that are all in order.
 inline constexpr double kMinVolume = 0.1;
-
-/// The largest impact speed in a world, m/s: initial speeds plus the fall from the current position to the lowest
-/// object. 0 if there is nothing to hit. Later movements of obstacles are not considered.
-[[nodiscard]] double impact_speed(const World& world);
-
-/// Makes the volume guard of a body strong enough for its impacts, if its material is too soft for them: the pressure
-/// of its own weight, density g length, and that of stopping from `speed` (m/s), density speed^2. Call before the first
-/// step is chosen; a guard shortens steps. Bodies that are stiff enough stay unchanged.
-void stiffen_volume_guard(Body& body, double gravity, double speed);
-
-/// The number of bricks below the volume at which the guard of their law begins to act.
-[[nodiscard]] int guarded_bricks(const Body& body);
-
-/// Whether those are more than a few: the guard then carries the body, not its springs, and its shape is not that of
-/// the material. This happens if the pressure of its weight, density g length, is well above Young's modulus: springs
-/// linear in their stretch bear about that much and no more.
-[[nodiscard]] bool is_crushed(const Body& body);
 
 /// A brick that would be compressed too far in the coming step.
 struct InversionRate {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
-#include "core/contact/inversion_guard.h"
 #include "core/contact/penetration.h"
 #include "core/units.h"
 
@@ -53,12 +52,13 @@ std::string remedy_for_speed(const SoftBody& body) {
       speed, sound);
 }
 
-std::string remedy_for_crushing(const SoftBody& body) {
-  if (!is_crushed(body)) return "";
+std::string remedy_for_inversion(const SoftBody& body) {
+  const int inverted = inverted_bricks(body);
+  if (inverted == 0) return "";
   return fmt::format(
-      "{} of its {} bricks are pressed flat: use a stiffer or lighter material (young, density) or a "
+      "{} of its {} bricks are inverted: use a stiffer or lighter material (young, density) or a "
       "smaller body",
-      guarded_bricks(body), body.grid.brick_count());
+      inverted, body.grid.brick_count());
 }
 
 /// Stiffness of a brick over the mass of its lightest corner, up to a factor common to the body.
@@ -111,7 +111,7 @@ std::size_t worst_brick_of(const Body& body) {
 
 std::string advice_for_divergence(const World& world, std::size_t row, std::size_t brick) {
   const SoftBody& body = world.bodies[row];
-  for (const std::string& remedy : {remedy_for_overlaps(world, row), remedy_for_speed(body), remedy_for_crushing(body),
+  for (const std::string& remedy : {remedy_for_overlaps(world, row), remedy_for_speed(body), remedy_for_inversion(body),
                                     remedy_for_stiff_springs(body, brick), remedy_for_thinness(body, brick)}) {
     if (!remedy.empty()) return remedy;
   }

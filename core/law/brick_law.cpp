@@ -11,10 +11,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 7> kModelNames{"calibrated", "springs",  "tensile", "m1",
-                                                      "m2-plain",   "m1-plain", "fem"};
-
-constexpr double kGuardStiffness = 5;  // in units of E h^3
+constexpr std::array<std::string_view, 6> kModelNames{"calibrated", "tensile", "m1", "m2-plain", "m1-plain", "fem"};
 
 /// The continuum's stiffness of the mean stretches, minus that of the plain springs: with springs alone it is (4 edge I
 /// + 4/3 inner J + 2 face (I + J)).
@@ -31,26 +28,13 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   law.axial_cross -= law.axes;
 }
 
-BrickLaw springs_law(const Material& material, double h) {
-  const double plate = material.young / (1 - material.poisson * material.poisson);
-  BrickLaw law;
-  // Twist requires G h / 6. Below a ratio of 0 bending in one sense about both axes allows only plate h (1 + nu) / 12:
-  // with more its correction would be negative, and the energy without bound.
-  law.face = std::min(material.shear_modulus() * h / 6, plate * (1 + material.poisson) * h / 12);
-  law.inner = 0.75 * (material.shear_modulus() * h - 2 * law.face);
-  law.bending_self = h / 3 * plate - 2 * law.face;
-  law.bending_cross = h / 3 * plate * material.poisson - 2 * law.face;
-  calibrate_stretch(law, material, h);
-  return law;
-}
-
 /// The volume term of NeoHooke below that.
 void check_dilation(double poisson) {
   if (poisson >= -0.5) return;
   throw Error(
       ErrorKind::kBadInput,
       fmt::format("model calibrated cannot represent Poisson's ratio {}: below -0.5 it would swell by itself; use "
-                  "model springs",
+                  "model fem",
                   poisson));
 }
 
@@ -80,8 +64,6 @@ BrickLaw m1_springs(const Material& material, double h) {
 
 BrickLaw law_of(Model model, const Material& material, double h) {
   switch (model) {
-    case Model::kSprings:
-      return springs_law(material, h);
     case Model::kTensile:
     case Model::kM2Plain: {
       check_edge_spring(model_name(model), material.poisson, -0.25, material.poisson > -0.25);
@@ -119,13 +101,7 @@ Model model_from_name(std::string_view name) {
 
 BrickLaw brick_law(Model model, const Material& material, double h) {
   check_material(material);
-  BrickLaw law = law_of(model, material, h);
-  if (has_springs(model)) {
-    law.guard = kGuardStiffness * material.young * h * h * h;
-  } else {
-    law.guard_ratio = 0;
-  }
-  return law;
+  return law_of(model, material, h);
 }
 
 }  // namespace sprung

@@ -183,7 +183,7 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
   loading.note_fallbacks(observer);
   progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
                                       : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
-  if (!loading.is_linear()) warn_of_crushed_bodies(simulation.world, observer);
+  if (!loading.is_linear()) warn_of_inverted_bricks(simulation.world, observer);
   return recorder.finish();
 }
 
@@ -221,24 +221,15 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   return recorder.finish();
 }
 
-void warn_of_crushed_bodies(const World& world, const Observer& observer) {
+void warn_of_inverted_bricks(const World& world, const Observer& observer) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const Body& body = world.bodies[i];
     const int inverted = inverted_bricks(body);
-    if (inverted == 0 && !is_crushed(body)) continue;
-    std::string what = fmt::format("{} are inverted", inverted);
-    if (has_springs(body.model)) {
-      what += fmt::format(
-          " and {} compressed to less than {} of their volume at the end, where the volume guard supports them, not "
-          "their springs",
-          guarded_bricks(body) - inverted, body.law.guard_ratio);
-    } else {
-      what += " at the end";
-    }
+    if (inverted == 0) continue;
     observer.warn(
-        fmt::format("body {}: of {} bricks {}: the material is too soft for its weight, its impact or its pins; use a "
-                    "stiffer or lighter material (young, density) or a smaller body",
-                    i + 1, body.grid.brick_count(), what));
+        fmt::format("body {}: of {} bricks {} are inverted at the end: the material is too soft for its weight, its "
+                    "impact or its pins; use a stiffer or lighter material (young, density) or a smaller body",
+                    i + 1, body.grid.brick_count(), inverted));
   }
 }
 

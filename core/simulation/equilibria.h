@@ -26,8 +26,8 @@ Points settle(SoftBody& body, const Supports& supports, const Loads& loads, cons
 [[nodiscard]] Recording record_modes(Simulation& simulation, const Scene& scene, const Observer& observer,
                                      RunCache* cache);
 
-/// Warns of each body whose bricks are crushed flat, under its own weight or by an impact: its shape is then not what
-/// the material would do.
-void warn_of_crushed_bodies(const World& world, const Observer& observer);
+/// Warns of each body with inverted bricks, by its own weight, an impact or its pins: its shape is then not what the
+/// material would do.
+void warn_of_inverted_bricks(const World& world, const Observer& observer);
 
 }  // namespace sprung

@@ -114,7 +114,7 @@ class MotionRun {
         "{}{}, {}{} steps of {} a frame, {} inverted bricks at the end, {}", count_of(frames, "frame"),
         first > 0 ? fmt::format(", {} of them in this run", frames - first) : "", has_more ? "at most " : "",
         steps.count, readable(steps.dt, Dimension::kTime), inverted, summary_of(crossings_)));
-    warn_of_crushed_bodies(world_, observer_);
+    warn_of_inverted_bricks(world_, observer_);
     warn_of_crossings(crossings_, observer_);
   }
 

@@ -53,14 +53,6 @@ void add_bodies(const Scene& scene, std::size_t first, const std::vector<LoadedB
   }
 }
 
-void stiffen_volume_guards(Simulation& simulation) {
-  const double speed = impact_speed(simulation.world);
-  for (SoftBody& body : simulation.world.bodies) {
-    body.law.guard = brick_law(body.model, body.material, body.grid.brick_size).guard;
-    stiffen_volume_guard(body, simulation.world.gravity.norm(), speed);
-  }
-}
-
 Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
   Simulation simulation;
   simulation.world.gravity = scene.gravity;
@@ -73,7 +65,6 @@ Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
   }
   if (!is_motion(scene)) return simulation;
   for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, simulation);
-  stiffen_volume_guards(simulation);
   check_start(scene, simulation);
   return simulation;
 }

@@ -30,10 +30,6 @@ struct Simulation {
 void add_bodies(const Scene& scene, std::size_t first, const std::vector<LoadedBody>& bodies, Simulation& simulation,
                 const Observer& observer);
 
-/// Stiffens the bodies' volume guards for the impacts that gravity and velocities may cause; call again after changing
-/// those.
-void stiffen_volume_guards(Simulation& simulation);
-
 /// A simulation ready to run, and what was found in preparing it.
 struct Preparation {
   std::vector<LoadedBody> bodies;

@@ -24,7 +24,7 @@ std::string message_of(const World& world, const std::filesystem::path& picture)
 TEST(DrawDiverged, LeavesAPictureOfTheBricksAndNamesIt) {
   const TempFolder folder;
   World world;
-  world.bodies.emplace_back(make_body(make_box_grid({4, 2, 2}, 0.02), Model::kSprings, test::test_material(0.3)));
+  world.bodies.emplace_back(make_body(make_box_grid({4, 2, 2}, 0.02), Model::kCalibrated, test::test_material(0.3)));
   world.bodies[0].positions(3, 1) += 0.01;
   const std::filesystem::path picture = folder.path() / "out" / "diverged.png";
   const std::string message = message_of(world, picture);

@@ -34,9 +34,9 @@ TEST(StartChecks, AThickShellIsFilledAtOnce) {
 }
 
 TEST(StartChecks, WarnOfRatiosAtWhichBricksLock) {
-  EXPECT_NE(inspect("--bricks 2 --model springs --poisson 0.495").err.find("bricks lock above 0.49"),
+  EXPECT_NE(inspect("--bricks 2 --model tensile --poisson 0.495").err.find("bricks lock above 0.49"),
             std::string::npos);
-  EXPECT_EQ(inspect("--bricks 2 --model springs --poisson 0.49").err.find("lock"), std::string::npos);
+  EXPECT_EQ(inspect("--bricks 2 --model tensile --poisson 0.49").err.find("lock"), std::string::npos);
 }
 
 TEST(StartChecks, NameAPinThatHoldsNothing) {

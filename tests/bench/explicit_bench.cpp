@@ -84,9 +84,9 @@ void register_explicit_benchmarks() {
       ->UseRealTime()
       ->MinTime(0.3)
       ->Unit(benchmark::kMillisecond);
-  for (const Model model : {Model::kSprings, Model::kTensile}) {
+  for (const Model model : {Model::kCalibrated, Model::kTensile}) {
     for (const bool damped : {false, true}) {
-      add("list", {"box", 32.0 * 32 * 32, model, damped, 1}, spring_list_step);
+      if (has_springs(model)) add("list", {"box", 32.0 * 32 * 32, model, damped, 1}, spring_list_step);
       for (const int threads : {1, 2}) {
         for (const double side : {8.0, 32.0, 64.0, 128.0}) {
           add("explicit", {"box", side * side * side, model, damped, threads}, explicit_step);
@@ -95,12 +95,6 @@ void register_explicit_benchmarks() {
           add("explicit", {shape, 100000, model, damped, threads}, explicit_step);
         }
       }
-    }
-  }
-  for (const bool damped : {false, true}) {
-    add("explicit", {"box", 64.0 * 64 * 64, Model::kCalibrated, damped, 1}, explicit_step);
-    for (const char* shape : {"bear", "octopus", "shell"}) {
-      add("explicit", {shape, 100000, Model::kCalibrated, damped, 1}, explicit_step);
     }
   }
 }

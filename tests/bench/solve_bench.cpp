@@ -49,7 +49,7 @@ struct BenchShape {
 };
 constexpr std::array kShapes{BenchShape{"cantilever", cantilever, 0}, BenchShape{"bear", bear, 1}};
 
-constexpr std::array kModels{Model::kCalibrated, Model::kSprings};
+constexpr std::array kModels{Model::kCalibrated, Model::kTensile};
 
 struct SupportedBody {
   SoftBody body;

@@ -37,7 +37,7 @@ void body_making(benchmark::State& state, double side) {
     BrickGrid own = grid;
     malloc_trim(0);
     state.ResumeTiming();
-    body = make_body(std::move(own), Model::kSprings, material);
+    body = make_body(std::move(own), Model::kCalibrated, material);
     benchmark::DoNotOptimize(body->masses.data());
   }
   state.counters["things"] = grid.brick_count();

@@ -12,16 +12,15 @@ constexpr const char* kSpringsAlone = "springs alone";
 
 /// Additions, multiplications and comparisons in double of one brick in the middle of a body and its share of edges and
 /// nodes, counted in core/body/kernel; square roots and divisions, in single precision there, are left out.
-/// Springs: 6 face and 4 inner diagonals of 29 (damped 41), 3 edges of 34 (45), 87 for their coupling, 50 for the
-/// guard, 4 stiffnesses, 22 for the node. Calibrated, a whole brick: 69 for its map, 123 for its differences, 68 for
+/// Calibrated, a whole brick: 69 for its map, 123 for its differences, 68 for
 /// the stress, 39 for the stiffness, 243 for what pulls at the map, 96 at the corners, 22 for the node; damped 427
-/// more. Tensile: 4 diagonals, 3 edges of 36 (47), 33, 50, 1, 22. Rows of springs alone (spring_rows.h): 7 springs of
+/// more. Tensile: 4 inner diagonals of 29 (damped 41), 3 edges of 36 (47), 33 for their coupling, 1 stiffness, 22 for
+/// the node. Rows of springs alone (spring_rows.h): 7 springs of
 /// 28, 12 for the node.
 double operations_of(const std::string& model, bool damped) {
   if (model == kSpringsAlone) return 208;
   if (model == "calibrated") return damped ? 1087 : 660;
-  if (model == "springs") return damped ? 708 : 555;
-  return damped ? 411 : 330;
+  return damped ? 361 : 280;
 }
 
 /// Bytes from and to memory of a brick-step at least: positions and velocities read and written, the mass; of rows of

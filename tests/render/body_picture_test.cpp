@@ -11,7 +11,7 @@ namespace sprung {
 namespace {
 
 TEST(BodyPicture, ShowsTheBodyOnWhite) {
-  Body body = make_body(make_box_grid({4, 2, 2}, 0.05), Model::kSprings, test::test_material(0.3));
+  Body body = make_body(make_box_grid({4, 2, 2}, 0.05), Model::kCalibrated, test::test_material(0.3));
   for (int i = 0; i < body.node_count(); ++i) body.positions(i, 0) *= 1.1;
   const BodyPicture picture = draw_body(body, {.width = 160, .height = 100});
   EXPECT_EQ(picture.quantity, "displacement (mm)");

@@ -94,7 +94,6 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double mi
   const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
   const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
   body.velocities.rowwise() = velocity.transpose();
-  stiffen_volume_guard(body, kGravity, impact_speed(drop.world));
   drop.size = size;
   drop.period = 2 * size / std::sqrt(material.shear_modulus() / material.density);
   const double fall = gap / std::max(speed, std::sqrt(kGravity * gap / 2));
@@ -129,7 +128,6 @@ DropResult run_drop(Drop& drop) {
     return result;
   }
   result.inverted_bricks = inverted_bricks(body);
-  result.is_crushed = is_crushed(body);
   result.smallest_volume = smallest_volume_ratio(body);
   if (result.inverted_bricks > 0) result.fault = fmt::format("{} inverted bricks at the end", result.inverted_bricks);
   if (result.deepest > kMaxDepth) result.fault += fmt::format("; {:.3g} of its size below the ground", result.deepest);

@@ -24,7 +24,6 @@ struct DropResult {
   double deepest = 0;           // share of the size that a contact point, or with the guard what is drawn, was below
                                 // the ground
   double energy_gain = 0;       // highest energy over the first, share of the first
-  bool is_crushed = false;      // at the end its guard supports it, not its springs
   int inverted_bricks = 0;      // at the end
   int inverted_on_the_way = 0;  // most, at the checks
   double smallest_volume = 0;   // of a brick over that at rest, at the end

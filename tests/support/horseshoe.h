@@ -17,7 +17,7 @@ inline SoftBody closing_horseshoe(double h) {
   }
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
-  SoftBody body(make_body(grid, Model::kSprings, test_material(0.3, 2e4)));
+  SoftBody body(make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)));
   const SurfaceMesh surface = surface_of(body.grid);
   body.contact.points = embed(body.grid, surface.positions);
   body.contact.triangles = surface.triangles;

@@ -9,7 +9,7 @@ namespace sprung::test {
 /// A body of full bricks whose outer faces touch.
 inline SoftBody touching_box(const Eigen::Vector3i& counts, double brick_size, const Material& material,
                              const Vec3& position) {
-  SoftBody body(make_body(make_box_grid(counts, brick_size), Model::kSprings, material));
+  SoftBody body(make_body(make_box_grid(counts, brick_size), Model::kCalibrated, material));
   const SurfaceMesh surface = surface_of(body.grid);
   body.contact.points = embed(body.grid, surface.positions);
   body.contact.triangles = surface.triangles;

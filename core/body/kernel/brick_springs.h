@@ -178,7 +178,6 @@ struct Layout {
   bool edges = false;
   bool faces = false;
   bool inner = false;
-  bool bends = false;
   bool axes = false;
 };
 
@@ -186,75 +185,35 @@ struct BrickSprings {
   BrickLaw law;
   SpringType face;
   SpringType inner;
-  SpringType axis;       // four mean axes together
-  double per_volume;     // 1 / h^3
-  double size_squared;   // h^2
-  double axial_cross;    // over 16: mean and bending stretches and their shares are sums of four here
-  double axial_rest;     // (self - cross) / 16
-  double bending_self;   // over 16
-  double bending_cross;  // over 16
+  SpringType axis;      // four mean axes together
+  double size_squared;  // h^2
+  double axial_cross;   // over 16: mean stretches and their shares are sums of four here
+  double axial_rest;    // (self - cross) / 16
 
   BrickSprings(const BrickLaw& brick_law, double h, double beta)
       : law(brick_law),
         face(2 * h * h, beta),
         inner(3 * h * h, beta),
         axis(16 * h * h, beta),
-        per_volume(1 / (h * h * h)),
         size_squared(h * h),
         axial_cross(law.axial_cross / 16),
-        axial_rest((law.axial_self - law.axial_cross) / 16),
-        bending_self(law.bending_self / 16),
-        bending_cross(law.bending_cross / 16) {}
+        axial_rest((law.axial_self - law.axial_cross) / 16) {}
 };
 
-/// Sums and signed sums over the four edges along an axis.
-struct FourEdges {
-  Pack sum;
-  Pack in_j;
-  Pack in_k;
-
-  [[gnu::always_inline]] explicit FourEdges(const Pack* s) {
-    const Pack low = s[0] + s[1];
-    const Pack high = s[2] + s[3];
-    sum = low + high;
-    in_k = high - low;
-    in_j = (s[1] - s[0]) + (s[3] - s[2]);
-  }
-};
-
-/// Tensions of a brick's twelve edges for their stretches: their own springs, and the axial and bending corrections
-/// (brick_law.h), see edge_tensions() of brick_kernel.h for the numbering.
-template <Layout kLayout>
+/// Tensions of a brick's twelve edges for their stretches: their own springs, and the axial correction (brick_law.h),
+/// see edge_tensions() of brick_kernel.h for the numbering.
 [[gnu::always_inline]] inline std::array<Pack, 12> edge_tensions(const BrickSprings& springs,
                                                                  const std::array<Pack, 12>& stretches) {
-  const FourEdges along_x(&stretches[0]);
-  const FourEdges along_y(&stretches[4]);
-  const FourEdges along_z(&stretches[8]);
-  const Pack all = springs.axial_cross * (along_x.sum + along_y.sum + along_z.sum);
-  std::array<Pack, 12> tensions;
-  // Of the edges on sides (j, k) = (-, -), (+, -), (-, +), (+, +).
-  const auto give = [&](std::size_t first, const FourEdges& own, const Pack& partner_j, const Pack& partner_k) {
-    const Pack axial = all + springs.axial_rest * own.sum;
-    const auto set = [&](std::size_t edge, const Pack& corrected) {
-      tensions[edge] = kLayout.edges ? springs.law.edge * stretches[edge] + corrected : corrected;
-    };
-    if constexpr (kLayout.bends) {
-      const Pack in_j = springs.bending_self * own.in_j + springs.bending_cross * partner_j;
-      const Pack in_k = springs.bending_self * own.in_k + springs.bending_cross * partner_k;
-      const Pack low = axial - in_k;
-      const Pack high = axial + in_k;
-      set(first, low - in_j);
-      set(first + 1, low + in_j);
-      set(first + 2, high - in_j);
-      set(first + 3, high + in_j);
-    } else {
-#pragma GCC unroll 12
-      for (std::size_t edge = first; edge < first + 4; ++edge) set(edge, axial);
-    }
+  const auto sum = [&](std::size_t first) {
+    return (stretches[first] + stretches[first + 1]) + (stretches[first + 2] + stretches[first + 3]);
   };
-  give(0, along_x, along_z.in_k, along_y.in_j);
-  give(4, along_y, along_x.in_k, along_z.in_j);
-  give(8, along_z, along_y.in_k, along_x.in_j);
+  const std::array<Pack, 3> sums{sum(0), sum(4), sum(8)};
+  const Pack all = springs.axial_cross * (sums[0] + sums[1] + sums[2]);
+  std::array<Pack, 12> tensions;
+#pragma GCC unroll 12
+  for (std::size_t edge = 0; edge < 12; ++edge) {
+    tensions[edge] = springs.law.edge * stretches[edge] + (all + springs.axial_rest * sums[edge / 4]);
+  }
   return tensions;
 }
 
@@ -356,7 +315,7 @@ class PackForces {
       const int axis = int(edge / 4);
       stretches[edge] = load(rows_[from >> 1].at(kStretch + axis, from & 1));
     }
-    const std::array<Pack, 12> tensions = edge_tensions<kLayout>(springs_, stretches);
+    const std::array<Pack, 12> tensions = edge_tensions(springs_, stretches);
 #pragma GCC unroll 12
     for (std::size_t edge = 0; edge < 12; ++edge) {
       const Pack tension = share_ * tensions[edge];
@@ -389,7 +348,7 @@ class PackForces {
     to = to - force;
   }
 
-  /// All forces that are equal and opposite at the ends of an inner diagonal: springs, mean axes, guard.
+  /// All forces that are equal and opposite at the ends of an inner diagonal: springs, mean axes.
   [[gnu::always_inline]] void pull_inner() {
     const Pack stiffness = springs_.law.inner * share_;
     Diagonals d;
@@ -401,7 +360,6 @@ class PackForces {
                                 : Pack3{Pack(0.0), Pack(0.0), Pack(0.0)};
     }
     if constexpr (kLayout.axes) pull_mean_axes(axes_of(d), forces);
-    if constexpr (kPart != Part::kDamping) guard(d, forces);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < 4; ++i) {
       forces_[kInnerDiagonals[i].from] = forces[i];
@@ -435,20 +393,6 @@ class PackForces {
     // A quarter for each edge of an axis, and a quarter for the axes being four together.
     const Pack quarter = (0.0625 * kind.rest) * tension;
     add_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z}, forces);
-  }
-
-  /// The guard of brick_kernel.h. If no brick of the pack is compressed that far, it costs one comparison.
-  [[gnu::always_inline]] void guard(const Diagonals& d, Diagonals& forces) const {
-    const Axes axes = axes_of(d);
-    const Pack3 area_x = cross(axes.y, axes.z);
-    const Pack strength = share_ * springs_.law.guard;
-    const Pack deficit = springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64);
-    if (simd::none_of(strength * deficit > 0.0)) [[likely]]
-      return;
-    const Pack active = simd::max(deficit, Pack(0.0));
-    const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
-    add_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)}, forces);
-    if constexpr (kPart == Part::kEnergy) add_energy(energy_, index_, 0.5 * strength * active * active);
   }
 
   const BrickSprings& springs_;

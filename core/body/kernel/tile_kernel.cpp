@@ -251,15 +251,11 @@ void walk(const TileView& tile, const KernelInput& input, double* scratch, doubl
 void run_tile(const TileView& tile, const KernelInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.is_solid) return walk<Layout{.solid = true}>(tile, input, scratch, shared, energy);
   const BrickLaw& law = input.law;
-  const bool bends = law.bending_self != 0 || law.bending_cross != 0;
-  if (law.axes == 0 && !bends) {
+  if (law.axes == 0) {
     if (law.face == 0) return walk<Layout{.edges = true, .inner = true}>(tile, input, scratch, shared, energy);
-    if (law.inner == 0) return walk<Layout{.edges = true, .faces = true}>(tile, input, scratch, shared, energy);
+    return walk<Layout{.edges = true, .faces = true}>(tile, input, scratch, shared, energy);
   }
-  if (law.axes == 0 && law.edge == 0) {
-    return walk<Layout{.faces = true, .inner = true, .bends = true}>(tile, input, scratch, shared, energy);
-  }
-  walk<Layout{false, true, true, true, true, true}>(tile, input, scratch, shared, energy);
+  walk<Layout{.edges = true, .faces = true, .inner = true, .axes = true}>(tile, input, scratch, shared, energy);
 }
 
 constexpr int kSharedAtOnce = 64;

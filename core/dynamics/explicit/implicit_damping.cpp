@@ -23,10 +23,10 @@ DampingShares damping_shares(const Body& body, double frequency_squared) {
   return shares;
 }
 
-void ImplicitDamping::apply(double dt) {
-  if (beta_ == 0) return;
+bool ImplicitDamping::add(double dt) {
+  if (beta_ == 0) return false;
   due_ += dt;
-  if (++passed_ == kStepsBetween) settle();
+  return ++passed_ == kStepsBetween;
 }
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {

@@ -26,8 +26,8 @@ class ImplicitDamping {
   /// `beta` in s; 0 costs nothing. The body must outlive it.
   ImplicitDamping(SoftBody& body, double beta) : body_(body), beta_(beta) {}
 
-  /// Advances by a step (s); velocities are updated every few steps.
-  void apply(double dt);
+  /// Adds the damping of a step (s). Whether so much is due that it should be applied now.
+  [[nodiscard]] bool add(double dt);
 
   /// Applies the damping that is still due.
   void settle();

@@ -26,24 +26,6 @@
 namespace sprung {
 namespace {
 
-/// What the volume guard can add to a brick's stiffness, in units of guard / h^2: the squared gradient of the volume
-/// ratio of a brick flattened to the guard's threshold along one axis.
-constexpr double kGuardGradient = 0.6;
-constexpr double kGuardAreas = 1.18;   // of that brick: the sum of its three faces' squared areas, in h^4
-constexpr double kMayBePressed = 0.6;  // bricks with less than that share of their volume may soon activate the guard
-
-/// The factor of that squared gradient in a brick that is flattened along one axis and stretched along another.
-double guard_growth(const Body& body) {
-  const double h = body.grid.brick_size;
-  double largest = kGuardAreas;
-  for (const auto& nodes : body.grid.nodes) {
-    const Mat3 axes = mean_axes_of(columns_of(nodes, body.positions));
-    const Mat3 areas = areas_of(axes) / (h * h);
-    if (axes.col(0).dot(areas.col(0)) < kMayBePressed * h) largest = std::max(largest, areas.squaredNorm());
-  }
-  return largest / kGuardAreas;
-}
-
 /// The fastest vibration of the body in its current state.
 double fastest_vibration_squared(const Body& body) {
   SpringSystem bricks;
@@ -65,9 +47,7 @@ double largest_frequency_squared(const Body& body) {
   double share = 0;
   for (const double scale : body.stiffness_scale) share += scale;
   const double corner_mass = body.masses.sum() / share / 8;
-  const double h = body.grid.brick_size;
-  const double guard = kGuardGradient * guard_growth(body) * body.law.guard / (h * h);
-  return (largest_brick_stiffness(body) + guard) / corner_mass;
+  return largest_brick_stiffness(body) / corner_mass;
 }
 
 /// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
@@ -97,12 +77,18 @@ class BodyStepper {
         implicit_damping_(body, damping_.implicit_beta),
         loads_(body, world) {}
 
-  /// velocities += dt (forces / m + gravity - alpha v); pinned nodes keep their velocity.
+  /// velocities += dt (forces / m + gravity - alpha v); pinned nodes keep their velocity. Damping sees the velocities
+  /// that the last step left, not what loads, gravity or springs add here: at rest these balance each other or contact.
   void kick(double dt) {
     Body& body = body_;
+    if (implicit_damping_.add(dt)) {
+      settle();
+      implicit_damping_.settle();
+    }
+    const Points* loads = nullptr;
     if (loads_.any()) {
       settle();
-      body.velocities += dt * (inverse_masses_.asDiagonal() * loads_.forces());
+      loads = &loads_.forces();
     }
     if (!has_tiles(body.model)) {
       settle();
@@ -116,12 +102,12 @@ class BodyStepper {
           inverse_masses_);
       pending_drift_ = 0;
     }
+    if (loads != nullptr) body.velocities += dt * (inverse_masses_.asDiagonal() * *loads);
     for (const KinematicNode& pinned : body_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (pinned.axes[axis]) body.velocities(pinned.node, axis) = pinned.velocity[axis];
       }
     }
-    implicit_damping_.apply(dt);  // pinned nodes have their velocity and lead the rest
   }
 
   /// positions += dt velocities: deferred to the next kick, which loads them anyway.

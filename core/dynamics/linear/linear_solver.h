@@ -31,7 +31,7 @@ struct Supports {
 /// Terms that a time step adds to the stiffness K of a body; by default, none.
 struct StepTerms {
   double mass_factor = 0;              // 1/s^2: times the masses
-  double damping = 0;                  // times the springs' axial stiffness, without the guard ...
+  double damping = 0;                  // times the springs' axial stiffness ...
   Points damping_positions;            // ... with the nodes here (m x 3, m); unused if damping is zero
   std::vector<PointStiffness> points;  // contacts, muscles
   /// The body's own part of what couples it to others: in the preconditioner of an IterativeSolver only.

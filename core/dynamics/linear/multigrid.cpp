@@ -93,7 +93,7 @@ class MultigridSolver : public IterativeSolver {
   void fill_block(int block, const EdgeCoupling& coupling);
   void fill_solids(int first, float* matrix) const;
   [[nodiscard]] double fastest_of_brick() const;
-  [[nodiscard]] bool is_peculiar(std::size_t brick, double volume_ratio) const;
+  [[nodiscard]] bool is_peculiar(std::size_t brick) const;
   [[nodiscard]] bool needs_pull(int block) const;
   [[nodiscard]] BrickMatrix peculiar_matrix(std::size_t brick) const;
   void multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product);
@@ -103,7 +103,6 @@ class MultigridSolver : public IterativeSolver {
   const Body* body_ = nullptr;
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
-  std::atomic<bool> is_guarded_ = false;  // any brick so flat that its guard is active
   std::vector<bool> fixed_;
   int coarsest_nodes_ = 0;
   std::vector<multigrid::Layout> layouts_;
@@ -136,7 +135,6 @@ void MultigridSolver::fill_finest() {
     if (needs_pull(block)) finest.add_pull(block);
   }
   const EdgeCoupling coupling = edge_coupling(body_->law);
-  is_guarded_ = false;
   tbb::parallel_for(0, finest.block_count(), [&](int block) { fill_block(block, coupling); });
   const double shift = definite_ ? kDiagonalShift * largest_brick_stiffness(*body_) : 0;
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -144,9 +142,9 @@ void MultigridSolver::fill_finest() {
   }
 }
 
-/// The largest eigenvalue of a full brick at rest relative to its nodes' own blocks; 0 if bricks are too far from rest.
+/// The largest eigenvalue of a full brick at rest relative to its nodes' own blocks; 0 if unknown.
 double MultigridSolver::fastest_of_brick() const {
-  if (definite_ || !points_of_brick_.empty() || is_guarded_ || !has_springs(body_->model)) return 0;
+  if (definite_ || !points_of_brick_.empty() || !has_springs(body_->model)) return 0;
   const BrickMatrix brick = brick_model(body_->model).full_brick_hessian(*body_);
   BrickMatrix blocks = BrickMatrix::Zero();
   for (int i = 0; i < 24; i += 3) blocks.block<3, 3>(i, i) = brick.block<3, 3>(i, i);
@@ -167,8 +165,8 @@ bool MultigridSolver::needs_pull(int block) const {
   return false;
 }
 
-bool MultigridSolver::is_peculiar(std::size_t brick, double volume_ratio) const {
-  if (volume_ratio < body_->law.guard_ratio || definite_ || !has_tiles(body_->model)) return true;
+bool MultigridSolver::is_peculiar(std::size_t brick) const {
+  if (definite_ || !has_tiles(body_->model)) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
                      [&](int node) { return is_pinned_node_[node] != 0; });
@@ -178,10 +176,8 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
   multigrid::Level& finest = cycle_->finest();
   float* matrix = finest.matrix(block);
   const int first = block * kLanes;
-  std::array<float, kLanes> volume_ratios{};
   if (has_springs(body_->model)) {
-    multigrid::kernels().stiffness_matrices(block_input(*body_), coupling, 1 + terms_->damping, first, matrix,
-                                            volume_ratios.data());
+    multigrid::kernels().stiffness_matrices(block_input(*body_), coupling, 1 + terms_->damping, first, matrix);
   } else if (has_tiles(body_->model) && !definite_) {
     fill_solids(first, matrix);
   }
@@ -189,9 +185,7 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
   for (int brick = first; brick < std::min(first + kLanes, body_->grid.brick_count()); ++brick) {
     const int lane = brick - first;
     const std::size_t b = brick;
-    const auto volume_ratio = double(volume_ratios[lane]);
-    if (volume_ratio < body_->law.guard_ratio) is_guarded_ = true;
-    if (!is_peculiar(b, volume_ratio)) continue;
+    if (!is_peculiar(b)) continue;
     put(peculiar_matrix(b), matrix + lane, pull == nullptr ? nullptr : pull + lane);
   }
 }

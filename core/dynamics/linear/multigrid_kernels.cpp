@@ -48,7 +48,7 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
 }
 
 [[gnu::flatten]] void stiffness_matrices_block(const BlockInput& input, const EdgeCoupling& coupling, double material,
-                                               int first, float* matrix, float* volume_ratios) {
+                                               int first, float* matrix) {
   const auto x = gather<Floats>(input, input.positions, first, kLanes);
   const double h = input.brick_size;
   Floats scale(0.0);
@@ -58,7 +58,6 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   std::array<Floats, kAnchoredSize> packed;
   anchored_stiffness<Floats>(*input.law, coupling, h, material, x, packed);
   for (std::size_t i = 0; i < kAnchoredSize; ++i) store(scale * packed[i], matrix + i * kLanes);
-  store(brick_volume(x) * Floats(1 / (h * h * h)), volume_ratios);
 }
 
 /// A pack of entries. Those of the next block are prefetched: memory limits products.

@@ -37,10 +37,10 @@ struct Kernels {
   /// from `first` on.
   void (*stiffness_product)(const BlockInput& block, const double* moves, int first, double* corner_products);
 
-  /// Anchored matrices (kAnchoredSize x 16) and volume ratios (16) of the bricks from `first` on, without the guard,
-  /// the springs' axial stiffness times `material`; zero in lanes beyond the last brick.
+  /// Anchored matrices (kAnchoredSize x 16) of the bricks from `first` on, the springs' axial stiffness times
+  /// `material`; zero in lanes beyond the last brick.
   void (*stiffness_matrices)(const BlockInput& input, const EdgeCoupling& coupling, double material, int first,
-                             float* matrix, float* volume_ratios);
+                             float* matrix);
 
   /// The forces C x of each brick at its corners, 24 x 16.
   void (*apply)(const LevelBlock& block, const float* x, float* corner_forces);

@@ -29,12 +29,6 @@ struct Pack {
   friend Pack& operator+=(Pack& a, const Pack& b) { return a = a + b; }
   friend Pack& operator-=(Pack& a, const Pack& b) { return a = a - b; }
   friend Pack sqrt(const Pack& a) { return std::experimental::sqrt(a.lanes); }
-  friend Pack max(const Pack& a, const Pack& b) { return std::experimental::max(a.lanes, b.lanes); }
-  friend Pack step_above_zero(const Pack& a) {
-    Lanes step(Number(0));
-    where(a.lanes > Number(0), step) = Number(1);
-    return step;
-  }
 };
 
 using Doubles = Pack<double, kBricksPerBlock>;

@@ -80,8 +80,8 @@ TEST(Equations, AreATableAndTheRatiosOfPlainSprings) {
 
 TEST(UniaxialCase, HoldsItsGatesAndKeepsToTheChoice) {
   const CaseResult result = run_uniaxial({});
-  EXPECT_EQ(held_gates(result).size(), 6U);
-  EXPECT_EQ(result.table.head.size(), 7U);
+  EXPECT_EQ(held_gates(result).size(), 5U);
+  EXPECT_EQ(result.table.head.size(), 6U);
   EXPECT_EQ(run_uniaxial({.model = Model::kM1, .poisson = -0.1, .bricks = {}}).table.head.size(), 3U);
 }
 

@@ -15,18 +15,6 @@ TEST(Check, PassesWithinItsTolerance) {
   EXPECT_FALSE(test::check("bend", "m1", 1, 7).is_gate());
 }
 
-TEST(Check, LowerBoundIsMetByLargerValues) {
-  Check check = test::check("bend", "m1", 1, 3, 0);
-  check.is_least = true;
-  EXPECT_TRUE(check.passed());
-  EXPECT_EQ(check.error(), 0);
-  EXPECT_NE(check_line(check).find(">= 1"), std::string::npos);
-  check.measured = 0.999;
-  EXPECT_FALSE(check.passed());
-  check.measured = kNaN;
-  EXPECT_FALSE(check.passed());
-}
-
 TEST(Check, SaysWhyThereIsNoResult) {
   Check check = test::check("bend", "m1", 1, kNaN);
   check.trouble = "it broke";
@@ -51,7 +39,7 @@ TEST(Check, WritesErrors) {
 TEST(Check, JsonHasNullForWhatIsNoNumber) {
   const std::string json = checks_json({test::check("bend \"it\"", "m1", 1, kNaN)});
   for (const char* part : {"\"experiment\": \"bend \\\"it\\\"\"", "\"measured\": null", "\"tolerance\": null",
-                           "\"passed\": null", "\"poisson\": 0.3", "\"is_least\": false"}) {
+                           "\"passed\": null", "\"poisson\": 0.3"}) {
     EXPECT_NE(json.find(part), std::string::npos) << part << " in " << json;
   }
 }

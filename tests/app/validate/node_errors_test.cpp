@@ -12,7 +12,7 @@ namespace {
 Body centred_bar() {
   BrickGrid grid = make_box_grid({4, 1, 1}, 0.1);
   grid.origin = Vec3(-0.2, -0.05, -0.05);
-  return make_body(std::move(grid), Model::kSprings, test::test_material(0.3));
+  return make_body(std::move(grid), Model::kCalibrated, test::test_material(0.3));
 }
 
 /// Known at two of the bar's nodes and at a point between nodes, which does not count.

@@ -20,7 +20,7 @@ TEST(Uniaxial, SlopeAtRestIsYoungsModulus) {
       EXPECT_NEAR((more.stress - less.stress) / (2 * kStep) / material.young, 1, 1e-6) << poisson;
       EXPECT_NEAR((more.sideways - less.sideways) / (2 * kStep), -poisson, 1e-6) << poisson;
     };
-    for (const Model model : test::kCorrectedModels) {
+    for (const Model model : {Model::kCalibrated, Model::kTensile}) {
       expect_elastic([&](double stretch) { return brick_uniaxial(model, material, stretch); });
     }
     expect_elastic([&](double stretch) { return st_venant_kirchhoff_uniaxial(material, stretch); });
@@ -53,7 +53,7 @@ TEST(Locking, StopsTheHexahedronAndNotTheBrick) {
   const auto references = reference_deflections();
   const DeflectionAt& near_half = references.back();
   ASSERT_DOUBLE_EQ(near_half.poisson, 0.49);
-  EXPECT_NEAR(cantilever_deflection(Model::kSprings, 0.49, 4) / near_half.deflection, 1, 0.04);
+  EXPECT_NEAR(cantilever_deflection(Model::kCalibrated, 0.49, 4) / near_half.deflection, 1, 0.04);
   EXPECT_LT(cantilever_deflection(Model::kFem, 0.49, 4) / near_half.deflection, 0.75);
 }
 

@@ -17,7 +17,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<Model, 3> kOneOfEach{Model::kSprings, Model::kFem, Model::kCalibrated};
+constexpr std::array<Model, 3> kOneOfEach{Model::kTensile, Model::kFem, Model::kCalibrated};
 
 Body torus_of(Model model, double poisson) {
   const Solid solid = find_solids(test::torus_mesh(0.1, 0.04), "torus").solids.at(0);

@@ -24,8 +24,8 @@ double brick_energy(const BrickLaw& law, double h, const CornerVectors<double>& 
   return brick_forces<double>(law, h, x, nullptr, force);
 }
 
-/// A randomly deformed brick, some of them far enough for the volume guard to act.
-CornerVectors<double> crushed_brick(double h, double compression, std::mt19937& random) {
+/// A randomly deformed brick.
+CornerVectors<double> deformed_brick(double h, double compression, std::mt19937& random) {
   std::uniform_real_distribution<double> distance(-0.15 * h, 0.15 * h);
   CornerVectors<double> x = rest_brick(h);
   for (std::size_t i = 0; i < 24; ++i) x[i] = (i % 3 == 1 ? compression * x[i] : x[i]) + distance(random);
@@ -38,7 +38,7 @@ TEST(BrickForces, AreTheGradientOfTheEnergy) {
   for (const Model model : kCorrectedModels) {
     for (const double compression : {1.4, 1.0, 0.2, -0.3}) {
       const BrickLaw law = brick_law(model, test_material(0.35), h);
-      const CornerVectors<double> x = crushed_brick(h, compression, random);
+      const CornerVectors<double> x = deformed_brick(h, compression, random);
       CornerVectors<double> force{};
       brick_forces<double>(law, h, x, nullptr, force);
       Eigen::Matrix<double, 24, 1> difference;
@@ -82,7 +82,7 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
   for (const Model model : kCorrectedModels) {
     for (const double compression : {1.4, 1.0, 0.2, -0.3}) {
       const BrickLaw law = brick_law(model, test_material(0.35), h);
-      const CornerVectors<double> x = crushed_brick(h, compression, random);
+      const CornerVectors<double> x = deformed_brick(h, compression, random);
       BrickMatrix difference;
       for (std::size_t i = 0; i < 24; ++i) {
         const double step = 1e-6 * h;
@@ -105,8 +105,8 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
 TEST(BrickForces, DampingTakesEnergyAndLeavesRigidMotionAlone) {
   std::mt19937 random(3);
   const double h = 0.1;
-  const BrickLaw law = brick_law(Model::kSprings, test_material(0.3), h);
-  const CornerVectors<double> x = crushed_brick(h, 1.0, random);
+  const BrickLaw law = brick_law(Model::kTensile, test_material(0.3), h);
+  const CornerVectors<double> x = deformed_brick(h, 1.0, random);
   CornerVectors<double> elastic{};
   brick_forces<double>(law, h, x, nullptr, elastic);
   const auto damping_force = [&](const CornerVectors<double>& rates) {
@@ -153,7 +153,7 @@ TEST(SpringForces, SumToNothing) {
 }
 
 TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
-  Body body = shaken_box(Model::kSprings);
+  Body body = shaken_box(Model::kTensile);
   body.damping.beta = 1e-3;
   for (int i = 0; i < body.node_count(); ++i) body.velocities.row(i).setConstant(std::sin(i));
   Points first;
@@ -168,16 +168,16 @@ TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Body, MassIsDensityTimesVolume) {
-  const Body body = shaken_box(Model::kSprings);
+  const Body body = shaken_box(Model::kTensile);
   EXPECT_NEAR(body.masses.sum(), 1000 * body.grid.volume(), 1e-12);
   EXPECT_GT(body.masses.minCoeff(), 0);
 }
 
 TEST(Body, FillScalesTheWholeLaw) {
   BrickGrid grid = make_box_grid({1, 1, 1}, 0.1);
-  Body full = make_body(grid, Model::kSprings, test_material(0.3));
+  Body full = make_body(grid, Model::kTensile, test_material(0.3));
   grid.fill[0] = 0.25;
-  Body part = make_body(grid, Model::kSprings, test_material(0.3));
+  Body part = make_body(grid, Model::kTensile, test_material(0.3));
   full.positions *= 1.1;
   part.positions *= 1.1;
   EXPECT_NEAR(elastic_energy(part), 0.25 * elastic_energy(full), 1e-12 * elastic_energy(full));
@@ -195,7 +195,7 @@ TEST(Body, TurnedHexahedraAnswerLikeUnturnedOnes) {
 }
 
 TEST(Body, CountsInvertedBricks) {
-  Body body = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kSprings, test_material(0.3));
+  Body body = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kTensile, test_material(0.3));
   EXPECT_EQ(inverted_bricks(body), 0);
   EXPECT_NEAR(smallest_volume_ratio(body), 1, 1e-12);
   for (int i = 0; i < body.node_count(); ++i) {

@@ -15,7 +15,7 @@ constexpr double kModulus = 2e5;
 constexpr double kRatio = 0.3;
 
 Body block(const Eigen::Vector3i& counts) {
-  return make_body(make_box_grid(counts, 0.01), Model::kSprings, test::test_material(kRatio, kModulus));
+  return make_body(make_box_grid(counts, 0.01), Model::kCalibrated, test::test_material(kRatio, kModulus));
 }
 
 Points moved(const Body& body, const std::function<Vec3(const Vec3&)>& displacement) {

@@ -77,7 +77,7 @@ TEST(Fill, MassIsDensityTimesTheMeshsVolume) {
   for (const double size : {0.1, 0.31, 0.6}) {
     const Solid solid = find_solids(test::torus_mesh(2, 0.7), "torus").solids.at(0);
     const Material material = test::test_material(0.3);
-    const Body body = make_body(fill_solid(solid, size).grid, Model::kSprings, material);
+    const Body body = make_body(fill_solid(solid, size).grid, Model::kCalibrated, material);
     EXPECT_NEAR(body.masses.sum() / (material.density * solid.volume), 1, 1e-3) << size;
   }
 }

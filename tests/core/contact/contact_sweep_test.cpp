@@ -20,9 +20,9 @@ constexpr double kBrick = 0.02;  // m
 
 /// Moves a guarded world; after each frame of 10 ms calls see().
 template <class See>
-void swept_run(World& world, double duration, const See& see) {
+void swept_run(World& world, double duration, const See& see, Scheme scheme = Scheme::kSymplecticEuler) {
   world.guards_crossings = true;
-  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, scheme);
   for (int frame = 0; frame < std::lround(duration / 0.01); ++frame) {
     static_cast<void>(motion.advance_frame(
         0.01 * frame, 0.01, [](double) {}, [](const std::string& what) { ADD_FAILURE() << what; }));
@@ -84,7 +84,7 @@ TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
   for (int i = 0; i < 2; ++i) {
     world.bodies.push_back(
         touching_box({3, 3, 3}, kBrick, test_material(0.3, 2e5), Vec3(0.07 * i, 0.03 * i, 0.01 * i)));
-    world.bodies[i].velocities.col(0).setConstant(i == 0 ? 0.5 : -0.5);
+    world.bodies[i].velocities.col(0).setConstant(i == 0 ? 0.3 : -0.3);
     world.bodies[i].damping = {};
     world.bodies[i].contact.friction = 0;
   }
@@ -98,7 +98,7 @@ TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
   EXPECT_LT(momentum().norm(), 1e-12 * mass);
   EXPECT_LT((turning() - turning_before).norm(), 1e-9 * turning_before.norm());
   EXPECT_LT(largest, start * (1 + 1e-3));
-  EXPECT_GT(world.bodies[1].velocities.col(0).mean(), 0.1);
+  EXPECT_GT(world.bodies[1].velocities.col(0).mean(), 0.06);
 }
 
 /// Blocks that start slightly overlapping separate slowly, and stay separated from then on.
@@ -166,11 +166,13 @@ TEST(ContactSweep, RestitutionIsThatOfTheGround) {
       }
     }
     const double before = energy(moving);
-    swept_run(moving, 0.1, [] {});
+    double after = 0;  // its mean, since that of steps wavers
+    swept_run(
+        moving, 0.1, [&] { after += energy(moving) / 10; }, Scheme::kVerlet);
     if (restitution < 1) {
-      EXPECT_LT(energy(moving), before);
+      EXPECT_LT(after, before);
     } else {
-      EXPECT_NEAR(energy(moving), before, 0.3 * before);
+      EXPECT_NEAR(after, before, 0.3 * before);
     }
     EXPECT_GT(moving.bodies[0].velocities.col(1).mean(), 0);
   }

@@ -25,7 +25,7 @@ struct Touching {
     now = world.bodies[0].positions;
     now.rowwise() += Eigen::RowVector3d(2e-4, -3e-3, 1e-4);
   }
-  World world = test::world_of(test::box_body({3, 3, 3}, 0.02, Model::kSprings, 0.3));
+  World world = test::world_of(test::box_body({3, 3, 3}, 0.02, Model::kCalibrated, 0.3));
   Obstacle obstacle;
   Points now;
 };

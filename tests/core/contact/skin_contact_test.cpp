@@ -157,7 +157,6 @@ TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
   SoftBody& body = world.bodies[0];
   body.velocities.col(0) *= 0.2;
   body.damping.beta = 2e-3;
-  stiffen_volume_guard(body, world.gravity.norm(), impact_speed(world));
   double before = total_energy(world);
   for (int frame = 0; frame < 40; ++frame) {
     run(world, 0.7, 1 / 0.7);
@@ -165,7 +164,6 @@ TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
     EXPECT_EQ(inverted_bricks(body), 0) << frame;
     before = total_energy(world);
   }
-  EXPECT_TRUE(is_crushed(body));
 }
 
 }  // namespace

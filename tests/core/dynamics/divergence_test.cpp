@@ -42,10 +42,10 @@ TEST(Divergence, AtTheSpeedOfSoundIsHelpedByALowerSpeed) {
   expect_remedy(world, "it moves at 12 m/s, where sound in its material moves at 10 m/s");
 }
 
-TEST(Divergence, OfCrushedBodiesIsHelpedByAStifferMaterial) {
+TEST(Divergence, OfInvertedBricksIsHelpedByAStifferMaterial) {
   World world = world_of_box();
-  world.bodies[0].positions.col(1) *= 0.2;
-  expect_remedy(world, "64 of its 64 bricks are pressed flat: use a stiffer or lighter material");
+  world.bodies[0].positions.col(1) *= -0.2;
+  expect_remedy(world, "64 of its 64 bricks are inverted: use a stiffer or lighter material");
 }
 
 TEST(Divergence, OfSpringsTooStiffForTheirMassIsHelpedByASofterRegion) {

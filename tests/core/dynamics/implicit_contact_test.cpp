@@ -34,7 +34,7 @@ TEST(ImplicitContact, DroppedCubeBouncesAndComesToRestOnTheGround) {
     double deepest = 0;
     double fastest_up = 0;
     double fastest_down = 0;
-    for (int step = 0; step < 220; ++step) {
+    for (int step = 0; step < 440; ++step) {
       motion.advance(0.005, 1, 0);
       deepest = std::max(deepest, -body.positions.col(1).minCoeff());
       const double speed = linear_momentum(body).y() / body.masses.sum();

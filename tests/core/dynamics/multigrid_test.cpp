@@ -40,7 +40,7 @@ struct Problem {
   StepTerms terms;
   Eigen::VectorXd forces;
 
-  explicit Problem(BrickGrid grid, double poisson = 0.3, Model model = Model::kSprings)
+  explicit Problem(BrickGrid grid, double poisson = 0.3, Model model = Model::kTensile)
       : body(make_body(std::move(grid), model, test_material(poisson, 1e5))), supports(body.node_count()) {
     const int low = body.grid.lattice.front().z();
     for (int node = 0; node < body.node_count(); ++node) {
@@ -337,8 +337,7 @@ TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
   const EdgeCoupling coupling = edge_coupling(problem.body.law);
   const auto results = [&](const multigrid::Kernels& kernels) {
     std::vector<float> matrix(kAnchoredSize * multigrid::kLanes);
-    std::vector<float> ratios(multigrid::kLanes);
-    kernels.stiffness_matrices(input, coupling, 1.3, 16, matrix.data(), ratios.data());
+    kernels.stiffness_matrices(input, coupling, 1.3, 16, matrix.data());
     std::vector<float> forces(24 * multigrid::kLanes);
     const Eigen::VectorXf x = problem.forces.cast<float>();
     const multigrid::LevelBlock block{.matrix = matrix.data(), .pull = nullptr, .nodes = input.nodes, .count = 16};

@@ -25,7 +25,7 @@ class TwoFingers : public ::testing::Test {
     BrickGrid grid = voxelize(solid, 1);
     if (is_divided) static_cast<void>(split_pieces(solid, grid));
     absorb_slivers(grid);
-    return make_body(std::move(grid), Model::kSprings, test::test_material(0.3, 1e6));
+    return make_body(std::move(grid), Model::kCalibrated, test::test_material(0.3, 1e6));
   }
 
   /// The nodes at the left side of the left finger's end, and those at the right side of the right one's.

@@ -32,7 +32,7 @@ CacheHeader box_header(int side) {
   Simulation& simulation = header.simulation;
   simulation.size = 0.5;
   SoftBody& body = simulation.world.bodies.emplace_back(
-      make_body(make_box_grid({side, side, side}, 0.1), Model::kSprings, test::test_material(0.3)));
+      make_body(make_box_grid({side, side, side}, 0.1), Model::kTensile, test::test_material(0.3)));
   body.drawn.color = {1, 2, 3};
   Origin& origin = simulation.origins.emplace_back();
   origin.regions.assign(body.grid.cells.size(), 2);
@@ -132,7 +132,7 @@ TEST(Cache, KeepsHowTheSolidLiesInItsBricksForModelsThatAskForIt) {
   for (int brick = 0; brick < made.grid.brick_count(); ++brick) {
     made.grid.moments.push_back({.centroid = Vec3(0.1, brick, 0.3), .covariance = Vec3(1, brick, 3).asDiagonal()});
   }
-  for (const Model model : {Model::kSprings, Model::kCalibrated}) {
+  for (const Model model : {Model::kTensile, Model::kCalibrated}) {
     made.model = model;
     write_frames(folder.path() / model_name(model), header, 1);
     const CacheReader reader(folder.path() / model_name(model));
