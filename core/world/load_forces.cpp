@@ -5,22 +5,23 @@
 #include <cmath>
 
 #include "core/body/body.h"
+#include "core/law/neo_hooke/strain_energy.h"
 #include "core/world/loads.h"
 
 namespace sprung {
 
-/// By Hooke's law: the stresses of a brick held in its shape while its rest shape is that of the muscle.
-MuscleTension tension_of(const Muscle& muscle, const Material& material) {
-  const double widening = 1 / std::sqrt(1 - muscle.contraction) - 1;
-  const double twice_shear = 2 * material.shear_modulus();
-  const double lame = twice_shear * material.poisson / (1 - 2 * material.poisson);
-  const double growth = 2 * widening - muscle.contraction;
-  const double along = -(lame * growth - twice_shear * muscle.contraction);
-  const double across = -(lame * growth + twice_shear * widening);
-  MuscleTension tension;
+MuscleTension tension_of(const Muscle& muscle, Model model, const Material& material) {
+  const double along = 1 - muscle.contraction;
+  const Vec3 shape(along, 1 / std::sqrt(along), 1 / std::sqrt(along));
   const Vec3 aside = muscle.direction.unitOrthogonal();
+  MuscleTension tension;
   tension.frame << muscle.direction, aside, muscle.direction.cross(aside);
-  tension.stress = {along, across, across};
+  if (model == Model::kCalibrated) {
+    tension.stress = -NeoHooke(material).stress(shape.asDiagonal()).diagonal();
+  } else {
+    const Vec3 strain = shape.array() - 1;  // Hooke's law
+    tension.stress = -(material.lame_lambda() * strain.sum() + 2 * material.shear_modulus() * strain.array());
+  }
   return tension;
 }
 
@@ -131,7 +132,7 @@ void LoadForces::find_skin_forces() {
 void LoadForces::add_muscle(const Muscle& muscle) {
   const Body& body = body_;
   const double h = body.grid.brick_size;
-  const auto [frame, stress] = tension_of(muscle, body.material);
+  const auto [frame, stress] = tension_of(muscle, body.model, body.material);
   for (const int brick : muscle.bricks) {
     const std::size_t row = brick;
     const auto& nodes = body.grid.nodes[row];

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/law/material.h"
+#include "core/law/brick_law.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -57,12 +57,13 @@ struct GluedPoint {
 };
 
 /// The tensions of a muscle along its direction and two across it. Tensions of constant magnitude along material
-/// directions have the energy V sum_i stress_i |F e_i|. They balance the springs in the muscle's rest shape.
+/// directions have the energy V sum_i stress_i |F e_i|. They balance the brick's own stresses in the muscle's rest
+/// shape, which is as large as its bricks.
 struct MuscleTension {
   Mat3 frame;   // columns: e_i, unit, in the frame of the grid
   Vec3 stress;  // Pa
 };
 
-[[nodiscard]] MuscleTension tension_of(const Muscle& muscle, const Material& material);
+[[nodiscard]] MuscleTension tension_of(const Muscle& muscle, Model model, const Material& material);
 
 }  // namespace sprung

@@ -12,7 +12,7 @@ namespace sprung {
 
 void MusclePotential::begin() {
   tensions_.clear();
-  for (const Muscle& muscle : body_.loads.muscles) tensions_.push_back(tension_of(muscle, body_.material));
+  for (const Muscle& muscle : body_.loads.muscles) tensions_.push_back(tension_of(muscle, body_.model, body_.material));
 }
 
 template <class Visit>

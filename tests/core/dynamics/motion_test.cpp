@@ -209,7 +209,7 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
 /// A node with hardly any mass makes the step, which counts on lumped masses, too long: detected within the frame,
 /// reported, and cured by halving it.
 TEST(AdaptiveIntegrator, HalvesTheStepWhereEnergyComesFromNowhere) {
-  World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
+  World world = world_of(box_body({3, 2, 2}, 0.02, Model::kTensile, 0.3));
   Body& body = world.bodies[0];
   std::mt19937 random(4);
   shake(body, 0.01, random);
