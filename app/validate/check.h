@@ -26,7 +26,7 @@ struct Check {
   double tolerance = kNaN;  // relative (absolute if 0 is expected); NaN: reported only
   std::string trouble{};    // why the run failed
 
-  /// measured / expected - 1; the difference if 0 is expected; 0 if a lower bound is met.
+  /// measured / expected - 1; the difference if 0 is expected.
   [[nodiscard]] double error() const;
   /// Whether the check has a tolerance and can fail.
   [[nodiscard]] bool is_gate() const;

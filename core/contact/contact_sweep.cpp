@@ -14,7 +14,7 @@ constexpr double kApproach = 0.5;  // of the way to the contact distance, by whi
 constexpr double kRecoveryHeight = 0.005;  // features that overlap separate as after a fall by that part of it
 constexpr double kYield = 0.2;  // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
-constexpr int kSweeps = 6;  // after one, stacks creep by 2 mm a second; after three, balls in a bowl do not rest
+constexpr int kSweeps = 6;  // after one, some balls in a bowl do not come to rest
 
 /// The least speed (m/s) along the normal of two features in contact, if they move at `speed` (m/s).
 double min_speed(const AwakePair& pair, double speed, double gravity, double dt) {

@@ -12,11 +12,10 @@ constexpr const char* kSpringsAlone = "springs alone";
 
 /// Additions, multiplications and comparisons in double of one brick in the middle of a body and its share of edges and
 /// nodes, counted in core/body/kernel; square roots and divisions, in single precision there, are left out.
-/// Calibrated, a whole brick: 69 for its map, 123 for its differences, 68 for
-/// the stress, 39 for the stiffness, 243 for what pulls at the map, 96 at the corners, 22 for the node; damped 427
-/// more. Tensile: 4 inner diagonals of 29 (damped 41), 3 edges of 36 (47), 33 for their coupling, 1 stiffness, 22 for
-/// the node. Rows of springs alone (spring_rows.h): 7 springs of
-/// 28, 12 for the node.
+/// Calibrated, a whole brick: 69 for its map, 123 for its differences, 68 for the stress, 39 for the stiffness, 243 for
+/// what pulls at the map, 96 at the corners, 22 for the node; damped 427 more. Tensile: 4 inner diagonals of 29 (damped
+/// 41), 3 edges of 36 (47), 33 for their coupling, 1 stiffness, 22 for the node. Rows of springs alone (spring_rows.h):
+/// 7 springs of 28, 12 for the node.
 double operations_of(const std::string& model, bool damped) {
   if (model == kSpringsAlone) return 208;
   if (model == "calibrated") return damped ? 1087 : 660;

@@ -42,8 +42,8 @@ struct ProductWorkspace {
 void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
                         Eigen::VectorXd& product);
 
-/// factor K_along u, likewise: K_along the stiffness used by damping, the axial one of the springs,
-/// with nodes at `positions` (m x 3, m).
+/// factor K_along u, likewise: K_along the stiffness used by damping, the axial one of the springs, with
+/// nodes at `positions` (m x 3, m).
 void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       ProductWorkspace& workspace, Eigen::VectorXd& product);
 

@@ -38,8 +38,8 @@ struct StaticReport {
                                            LinearSolver& system);
 
 /// Moves the body into equilibrium under dead loads (m x 3, N): the minimum of elastic energy - loads . positions, by
-/// Newton's method with a line search, with large deformations. Supported degrees of freedom keep
-/// the positions they come with; `start` (m x 3, m) is where they were before, so that both loads and movements of the
+/// Newton's method with a line search, for large deformations. Supported degrees of freedom keep the positions they
+/// come with; `start` (m x 3, m) is where they were before, so that both loads and movements of the
 /// supports are applied in steps if one is not enough. Throws Error(kDiverged) with load share and residual if no
 /// equilibrium is found.
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,

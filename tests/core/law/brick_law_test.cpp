@@ -130,7 +130,7 @@ TEST(BrickLaw, CorrectionIsThePapersPerpendicularForce) {
   }
 }
 
-/// Six rigid motions; bending along an axis stretches no spring of a face, twisting none of M2.
+/// Six rigid motions, and three twists (u_x = y z and the like) that lengthen neither edges nor inner diagonals.
 TEST(BrickLaw, ZeroModesOfTheTensileBrickAreNine) {
   for (const double poisson : kPoissonRatios) {
     const Material material = test_material(poisson);
