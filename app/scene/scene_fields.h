@@ -149,10 +149,6 @@ void fields(auto& visit, Is<SceneContact> auto& contact) {
   visit.table("contact");
   visit({"bodies", "whether bodies collide with each other"}, contact.bodies);
   visit({"self", "whether a body collides with itself"}, contact.self);
-  visit({"guard",
-         "with explicit steps: whether edges touch too, and nothing passes through anything; false: only points touch, "
-         "which is faster"},
-        contact.guard);
 }
 
 void fields(auto& visit, Is<SceneCamera> auto& camera) {
@@ -289,7 +285,7 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
          "density, damping }"},
         body.material);
   visit({"model",
-         "law of the bricks: calibrated (by the solid in each), springs (its forerunner), tensile (Baudet et al. "
+         "law of the bricks: calibrated (by the solid in each), tensile (Baudet et al. "
          "2009), m1, m2-plain, m1-plain or fem"},
         body.model);
   visit({"color", "\"#rrggbb\" where the mesh file gives no colour"}, body.color);

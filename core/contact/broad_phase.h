@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/contacts.h"
+#include "core/contact/search/group.h"
 #include "core/types.h"
 #include "core/world/world.h"
 

@@ -110,9 +110,14 @@ void ContactCandidates::find(const Group& group, BrickBounds& bounds) {
 }
 
 RigidMotion ContactCandidates::rigid_motion(const Group& group) const {
-  Group both;
-  for (const Side& side : sides_) both.push_back(group[side.body]);
-  return rigid_motion_of(both);
+  std::vector<MovingMass> masses;
+  for (const Side& side : sides_) {
+    const Body& body = *group[side.body];
+    for (int node = 0; node < body.node_count(); ++node) {
+      masses.push_back({body.masses[node], body.positions.row(node), body.velocities.row(node)});
+    }
+  }
+  return rigid_motion_of(masses);
 }
 
 double ContactCandidates::fastest_of(const Group& group, std::size_t side, std::size_t row,
@@ -135,13 +140,6 @@ double ContactCandidates::fastest(const Group& group) const {
     const std::size_t count = skin_of(sides_[side]).bricks.size();
     for (std::size_t row = 0; row < count; ++row) most = std::max(most, fastest_of(group, side, row, rigid));
   }
-  return most;
-}
-
-double ContactCandidates::fastest_near(const Group& group) const {
-  const RigidMotion rigid = rigid_motion(group);
-  double most = 0;
-  for (const BrickBounds& bounds : bounds_) most = std::max(most, fastest_of(group, bounds.side, bounds.row, rigid));
   return most;
 }
 
@@ -218,7 +216,6 @@ void ContactCandidates::pair_up(const Group& group, const BrickBounds& bounds, c
 void ContactCandidates::look(const Group& group, const ContactRange& reach) {
   tracked_.clear();
   pairs_.clear();
-  nearest_beyond_ = std::numeric_limits<double>::infinity();
   for (Side& side : sides_) std::fill(side.tracked.begin(), side.tracked.end(), -1);
   ++finds_;
   for (BrickBounds& bounds : bounds_) find(group, bounds);
@@ -226,7 +223,6 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
     const BrickBounds& a = bounds_[brick];
     const BrickBounds& b = bounds_[other];
     const double distance = a.box.exteriorDistance(b.box);
-    nearest_beyond_ = std::min(nearest_beyond_, std::max(distance, reach.margin));
     if (distance > reach.margin) continue;
     pair_up(group, a, b, reach);
     pair_up(group, b, a, reach);
@@ -239,43 +235,11 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
             [&](const CandidatePair& a, const CandidatePair& b) { return order(a) < order(b); });
 }
 
-void ContactCandidates::take(const Group& group, const std::vector<std::vector<FacingPair>>& lists) {
-  may_look_away_ = true;
-  tracked_.clear();
-  pairs_.clear();
-  for (Side& side : sides_) std::fill(side.tracked.begin(), side.tracked.end(), -1);
-  std::vector<CandidatePair> pairs;
-  for (const std::vector<FacingPair>& list : lists) {
-    for (const FacingPair& facing : list) {
-      const std::size_t across = sides_.size() - 1 - facing.side;
-      const std::array<int, 3>& triangle = skin_of(sides_[across]).triangles[facing.triangle];
-      CandidatePair pair{tracked_row(group, facing.side, facing.point), {}};
-      for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = tracked_row(group, across, triangle[i]);
-      pairs.push_back(pair);
-    }
-  }
-  // Grouped by point, otherwise in the order of the lists.
-  std::vector<std::size_t> ends(tracked_.size() + 1);
-  for (const CandidatePair& pair : pairs) ++ends[pair.point + 1];
-  for (std::size_t row = 1; row < ends.size(); ++row) ends[row] += ends[row - 1];
-  pairs_.resize(pairs.size());
-  for (const CandidatePair& pair : pairs) pairs_[ends[pair.point]++] = pair;
-}
-
-void ContactCandidates::turn(const Group& group) {
-  for (TrackedPoint& tracked : tracked_) {
-    const ContactSurface& skin = *skins_[tracked.body];
-    tracked.normal =
-        carried_normal(*group[tracked.body], skin.points[tracked.point].brick, skin.normals.row(tracked.point));
-  }
-}
-
 void ContactCandidates::follow(const Group& group) {
   for (TrackedPoint& tracked : tracked_) {
     const ContactPoint& point = skins_[tracked.body]->points[tracked.point];
     const Body& body = *group[tracked.body];
     tracked.position = carried(body, point, body.positions);
-    tracked.velocity = carried(body, point, body.velocities);
   }
 }
 

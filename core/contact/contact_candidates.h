@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "core/contact/broad_phase.h"
-#include "core/contact/contacts.h"
 #include "core/contact/search/contact_surface.h"
-#include "core/contact/search/facing_lists.h"
+#include "core/contact/search/rigid_motion.h"
 
 namespace sprung {
 
@@ -16,13 +15,18 @@ struct TrackedPoint {
   int point;         // of its skin
   Vec3 normal;       // of the skin there, when last updated
   Vec3 position = Vec3::Zero();
-  Vec3 velocity = Vec3::Zero();
 };
 
 /// A point and a triangle near it, as rows of tracked points.
 struct CandidatePair {
   int point;
   std::array<int, 3> corners;
+};
+
+/// The distances of points and triangles that may come into contact, m.
+struct ContactRange {
+  double margin;   // outside
+  double deepest;  // inside: what is deeper came from the other side
 };
 
 /// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one skin,
@@ -36,10 +40,8 @@ class ContactCandidates {
   /// Finds the bricks whose skins are within `margin` (m) of each other. Deterministic.
   void seek(const Group& group, double margin);
 
-  /// The largest speed of all points, and of those in bricks found so, m/s, relative to the rigid motion nearest to the
-  /// bodies'.
+  /// The largest speed of all points, m/s, relative to the rigid motion nearest to the bodies'.
   [[nodiscard]] double fastest(const Group& group) const;
-  [[nodiscard]] double fastest_near(const Group& group) const;
 
   /// The largest approach speed of those bricks that may meet within dt (s), m/s.
   [[nodiscard]] double closing_speed(const Group& group, double dt) const;
@@ -47,22 +49,10 @@ class ContactCandidates {
   /// Finds points and triangles among those bricks. Deterministic.
   void look(const Group& group, const ContactRange& reach);
 
-  /// Takes the pairs of a front instead. Deterministic.
-  void take(const Group& group, const std::vector<std::vector<FacingPair>>& lists);
-
-  /// Updates the skin's normals at the tracked points; take() has done so.
-  void turn(const Group& group);
-
-  /// Updates the positions and velocities of the tracked points.
+  /// Updates the positions of the tracked points.
   void follow(const Group& group);
 
-  /// Whether pairs need not face each other: true if they come from a front.
-  [[nodiscard]] bool may_look_away() const { return may_look_away_; }
-
-  /// Whether any bricks are near each other, and a lower bound (m) on the distance of points and triangles that form no
-  /// pair.
   [[nodiscard]] bool has_near_bricks() const { return !near_.empty(); }
-  [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
   [[nodiscard]] const TrackedPoint& tracked(int row) const { return tracked_[row]; }
   /// Grouped by the point and, for each, by the body of the triangle.
@@ -105,8 +95,6 @@ class ContactCandidates {
   std::vector<Side> sides_;                          // two, or one
   std::vector<BrickBounds> bounds_;                  // of bricks that are near others
   std::vector<std::pair<int, int>> near_;            // rows of bounds_
-  double nearest_beyond_ = 0;
-  bool may_look_away_ = false;
   long finds_ = 0;
   std::vector<TrackedPoint> tracked_;
   std::vector<CandidatePair> pairs_;

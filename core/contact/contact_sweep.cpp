@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kApproach = 0.5;  // of the way to the contact distance, by which features may approach per step
 constexpr double kRecoveryHeight = 0.005;  // features that overlap separate as after a fall by that part of it
-constexpr double kYield = 0.2;  // of an impulse of glue: what it leaves of the velocity, times the mass there
+constexpr double kYield = 0.02;  // of an impulse of glue: what it leaves of the velocity, times the mass there
 constexpr int kInversionSweeps = 4;
 constexpr int kSweeps = 6;  // after one, some balls in a bowl do not come to rest
 

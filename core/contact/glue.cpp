@@ -11,8 +11,6 @@
 namespace sprung {
 namespace {
 
-constexpr std::size_t kGlue = (1U << 14U) - 1;  // instead of the other surface in a key: above all of those
-
 /// The pose of an undeformed body's grid in the world.
 Pose pose_of(const Body& body) {
   Pose pose;
@@ -84,27 +82,6 @@ std::vector<GluedPoint> glue_within(const World& world, std::span<const std::siz
     within.push_back(point);
   }
   return within;
-}
-
-void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& contacts) {
-  for (std::size_t i = 0; i < glue.size(); ++i) {
-    const GluedPoint& point = glue[i];
-    const std::size_t first = contacts.shares.size();
-    Vec3 apart = Vec3::Zero();
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double sign = side == 0 ? 1 : -1;
-      const Body& body = *group[point.bodies[side]];
-      apart += sign * carried(body, point.bricks[side], point.weights[side], body.positions);
-      add_shares(group, point.bodies[side], point.bricks[side], sign * point.weights[side], contacts);
-    }
-    contacts.list.push_back({.key = contact_key(kGlue, 0, 0, 0) + i,
-                             .first = first,
-                             .last = contacts.shares.size(),
-                             .normal = Vec3::Zero(),
-                             .goal = -apart / (kRejoinSteps * dt),
-                             .friction = 0,
-                             .is_glue = true});
-  }
 }
 
 }  // namespace sprung

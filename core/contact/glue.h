@@ -2,7 +2,6 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contacts.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -16,8 +15,5 @@ inline constexpr double kRejoinSteps = 4;
 
 /// The glued points among these bodies, by their rows in the list.
 [[nodiscard]] std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> bodies);
-
-/// Appends the contacts that keep each glued point of a group together in the coming step, ordered by key.
-void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& contacts);
 
 }  // namespace sprung

@@ -24,7 +24,6 @@ bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double dep
   stance.normal = area / area.norm();
   stance.gap = stance.normal.dot(off);
   stance.weights = barycentric(ahead, aside, off);
-  if (pairs.may_look_away() && point.normal.dot(stance.normal) > kFacing) return false;
   return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not if the triangle has no area
 }
 

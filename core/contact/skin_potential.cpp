@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contact/broad_phase.h"
+#include "core/contact/contacts.h"
 #include "core/contact/obstacle_potential.h"
 
 namespace sprung {

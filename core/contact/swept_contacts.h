@@ -4,8 +4,8 @@
 
 namespace sprung {
 
-/// The contacts of a group's bodies if World::guards_crossings is set: nearby features are found (NearFeatures), kept
-/// apart by a few sweeps of impulses (ContactSweep), and guaranteed not to cross (CrossingGuard).
+/// The contacts of a group's bodies: nearby features are found (NearFeatures), kept apart by a few sweeps of impulses
+/// (ContactSweep), and guaranteed not to cross (CrossingGuard).
 class SweptContacts {
  public:
   /// The bodies must outlive it. `glue` by rows of the group.

@@ -30,7 +30,7 @@ class SceneMotion {
 
   /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
-  /// Of all steps so far; none unless the scene guards against crossings.
+  /// Of all explicit steps so far.
   [[nodiscard]] const GuardCounts& guard_counts() const { return guard_counts_; }
   /// None for explicit steps.
   [[nodiscard]] std::optional<ImplicitMotion::Report> implicit_report() const;

@@ -32,7 +32,7 @@ struct Recording {
   std::vector<ProbeTrack> probes;
   Eigen::VectorXd frequencies;       // Hz, of modes
   std::vector<Crossings> crossings;  // of the frames of a motion that this run computed, but the first
-  GuardCounts guard;                 // of the steps that this run computed, if the scene guards against crossings
+  GuardCounts guard;                 // of the explicit steps that this run computed
   std::uint64_t state_hash = 0;      // of the last frame's node positions and velocities
 };
 

@@ -288,7 +288,6 @@ struct SceneGlue {
 struct SceneContact {
   bool bodies = true;  // between bodies
   bool self = true;    // of a body with itself
-  bool guard = true;   // see CrossingGuard
 };
 
 /// The bodies, obstacles, loads and duration of a simulation. SI units.

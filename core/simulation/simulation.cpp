@@ -57,7 +57,6 @@ Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
   Simulation simulation;
   simulation.world.gravity = scene.gravity;
   simulation.world.bodies_collide = scene.contact.bodies;
-  simulation.world.guards_crossings = scene.contact.guard;
   add_bodies(scene, 0, bodies, simulation, observer);
   simulation.obstacles = make_obstacles(scene, kDrawnPlane * simulation.size, observer);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {

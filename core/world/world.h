@@ -60,8 +60,7 @@ struct World {
   std::vector<SoftBody> bodies;
   Vec3 gravity{0, -9.81, 0};  // m/s^2
   std::vector<Obstacle> obstacles;
-  bool bodies_collide = true;     // with each other
-  bool guards_crossings = false;  // see CrossingGuard
+  bool bodies_collide = true;  // with each other
   Wind wind{};
   std::vector<GluedPoint> glue{};
 };

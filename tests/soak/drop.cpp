@@ -64,10 +64,9 @@ double lowest_contact_point(const SoftBody& body) {
   return deform_points(body.grid, body.contact.points, body.positions).col(1).minCoeff();
 }
 
-/// Of those that contact keeps above the ground.
-double lowest_kept_point(const World& world) {
-  const SoftBody& body = world.bodies.front();
-  if (!world.guards_crossings || body.drawn.mesh == nullptr) return lowest_contact_point(body);
+/// Of what contact keeps above the ground: the drawn skin, or contact points where there is none.
+double lowest_kept_point(const SoftBody& body) {
+  if (body.drawn.mesh == nullptr) return lowest_contact_point(body);
   return body.skin_positions(body.positions).col(1).minCoeff();
 }
 
@@ -118,7 +117,7 @@ DropResult run_drop(Drop& drop) {
       const std::vector<GroupSteps> groups = motion.advance_frame(
           i * frame, frame, [](double) {}, [&](const std::string&) { ++result.halvings; });
       result.brick_steps += groups[0].steps.count * body.grid.brick_count();
-      result.deepest = std::max(result.deepest, -lowest_kept_point(drop.world) / drop.size);
+      result.deepest = std::max(result.deepest, -lowest_kept_point(body) / drop.size);
       result.energy_gain =
           std::max(result.energy_gain, (energy_of(body, drop.world.gravity).sum() - first) / (first + scale));
       result.inverted_on_the_way = std::max(result.inverted_on_the_way, inverted_bricks(body));

@@ -14,7 +14,6 @@ struct Options {
   std::uint32_t drops = 100;
   double min_poisson = -0.2;
   std::string model = "calibrated";
-  bool guard = false;
   bool verbose = false;
 };
 
@@ -33,7 +32,6 @@ int soak(const Options& options) {
   for (std::uint32_t index = options.first; index < options.first + options.drops; ++index) {
     const auto start = std::chrono::steady_clock::now();
     Drop drop = random_drop(options.seed, index, model_from_name(options.model), options.min_poisson);
-    drop.world.guards_crossings = options.guard;
     const DropResult result = run_drop(drop);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     failed += result.fault.empty() ? 0 : 1;
@@ -56,8 +54,6 @@ int main(int argc, char** argv) {
   app.add_option("--first", options.first, "number of the first drop: to see one again, with --drops 1");
   app.add_option("--least-poisson", options.min_poisson, "of the materials")->check(CLI::Range(-0.9, 0.49));
   app.add_option("--model", options.model, "of the bricks");
-  app.add_flag("--guard", options.guard,
-               "with the guard against crossings, as in scenes; what is drawn stays above ground");
   app.add_flag("--verbose", options.verbose, "a line for every drop, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
   return sprung::test::soak(options) == 0 ? 0 : 1;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/pairs/closest_features.h"
+
 namespace sprung {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr int kMaxLooks = 20;          // in a step, each after something deviat
 constexpr int kImpulseRounds = 12;     // of impulses between corners ...
 constexpr int kSlowRounds = 36;        // ... then, up to here, of nodes that are slowed down ...
 constexpr int kMaxRounds = 400;        // ... and of nodes that move as one, more from round to round
+constexpr double kMaxDip = 0.8;        // of the way to zero, between the ends of a step, of a distance of corners
 constexpr double kShareOfEach = 0.45;  // of the allowed approach of two features, that each may use
 constexpr double kRounding = 1e-12;    // bricks by which features of nodes that move as one approach by rounding errors
 
@@ -61,7 +64,34 @@ void CrossingGuard::count(int rounds, bool has_failed) {
 
 bool CrossingGuard::may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const {
   const double least = welds_.empty() ? -std::numeric_limits<double>::infinity() : kRounding * near_.brick();
-  return closing_speed(pair.pair, speeds) * dt > std::max(least, allowed_approach(pair, near_.brick()));
+  return closing_speed(pair.pair, speeds) * dt > std::max(least, allowed_approach(pair, near_.brick())) &&
+         !stay_apart_turning(pair, dt);
+}
+
+bool CrossingGuard::stay_apart_turning(const AwakePair& pair, double dt) const {
+  if (pair.gap <= 0 || pair.bodies[1] == AwakePair::kNoBody) return false;
+  std::array<Vec3, 4> now;
+  std::array<Vec3, 4> then;
+  for (int corner = 0; corner < 4; ++corner) {
+    now[corner] = near_.position(pair, corner);
+    then[corner] = now[corner] + dt * near_.velocity(pair, corner);
+  }
+  const FeatureDistance after = pair.pair.count == 1 ? point_to_triangle(then[0], then[1], then[2], then[3])
+                                                     : edge_to_edge(then[0], then[1], then[2], then[3]);
+  const Vec3 normal_then = after.apart.normalized();
+  if (!(after.apart.norm() > pair.gap - allowed_approach(pair, near_.brick()))) return false;
+  for (int i = 0; i < pair.pair.count; ++i) {
+    for (int j = pair.pair.count; j < 4; ++j) {
+      const Vec3 apart = now[i] - now[j];
+      const Vec3 apart_then = then[i] - then[j];
+      // Their distance along a normal that turns linearly is a quadratic in time; these are its Bernstein coefficients.
+      const double at_first = pair.normal.dot(apart);
+      const double midway = (pair.normal.dot(apart_then) + normal_then.dot(apart)) / 2;
+      const double at_last = normal_then.dot(apart_then);
+      if (!(at_first > 0 && at_last > 0 && midway > -kMaxDip * std::sqrt(at_first * at_last))) return false;
+    }
+  }
+  return true;
 }
 
 bool CrossingGuard::find_met(double dt) {

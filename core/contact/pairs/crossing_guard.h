@@ -13,14 +13,15 @@ namespace sprung {
 /// through triangles, and edges through edges; and what is drawn of the bodies from entering obstacles without edges.
 /// The normal between the nearest points of two such features separates them, and still does after a step of dt if
 ///
-///   dt (least speed of the first's corners along it - greatest of the second's) > -0.8 gap.
+///   dt (least speed of the first's corners along it - greatest of the second's) > -0.8 gap,
 ///
-/// If that is violated, an impulse acts between the nearest points or, if that is not enough, on the corners that
-/// violate it; the first conserves momentum and angular momentum, the other momentum. If these do not converge, nodes
-/// are slowed down one by one, and finally all nodes of features that still meet move as one, with their momentum, or
-/// with the pinned nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start, and
-/// the features about it, are ignored until they have separated. It fails only where parts meet that pins or obstacles
-/// move on both sides. Deterministic.
+/// or if the plane between them, turning as their nearest points do in the step, separates them throughout. If neither
+/// holds, an impulse acts between the nearest points or, if that is not enough, on the corners that violate it; the
+/// first conserves momentum and angular momentum, the other momentum. If these do not converge, nodes are slowed down
+/// one by one, and finally all nodes of features that still meet move as one, with their momentum, or with the pinned
+/// nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start, and the features about it,
+/// are ignored until they have separated. It fails only where parts meet that pins or obstacles move on both sides.
+/// Deterministic.
 class CrossingGuard {
  public:
   /// `near` must outlive it.
@@ -45,6 +46,8 @@ class CrossingGuard {
   [[nodiscard]] Outcome keep_apart(double dt, int& rounds);
   void count(int rounds, bool has_failed);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;
+  /// Whether a plane that turns with the nearest points separates the features throughout a step of dt.
+  [[nodiscard]] bool stay_apart_turning(const AwakePair& pair, double dt) const;
   /// Lists the pairs that may meet, in addition to earlier ones; false: there are none now.
   bool find_met(double dt);
   /// Applies an impulse between points of the two features, given by the corners' weights, so that they separate as

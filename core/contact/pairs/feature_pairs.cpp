@@ -36,7 +36,7 @@ FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_
       inside_{std::vector<Inside>(a.skin().points.size()), std::vector<Inside>(b.skin().points.size())},
       loaded_{std::vector<long>(std::size_t(a.body().node_count()), -1),
               std::vector<long>(std::size_t(b.body().node_count()), -1)},
-      front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored, LeftOut::kConnected) {}
+      front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored) {}
 
 bool FeaturePairs::fill(const NearBricks& bricks) {
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));

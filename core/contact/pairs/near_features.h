@@ -50,6 +50,10 @@ class NearFeatures {
   [[nodiscard]] Vec3 known_velocity(const AwakePair& pair, int corner);
   [[nodiscard]] Vec3 velocity(const AwakePair& pair, int corner) const;
   void refresh_velocities();
+  /// The position of a pair's corner, m.
+  [[nodiscard]] const Vec3& position(const AwakePair& pair, int corner) const {
+    return tree_of(pair, corner).position_of(pair.pair.corners[corner]);
+  }
   /// The node that carries most of a pair's first corner.
   [[nodiscard]] int nearest_node(const AwakePair& pair) const;
   /// Calls visit(body, node, weight) for all nodes that carry a corner, none for an obstacle without edges.

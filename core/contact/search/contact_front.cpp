@@ -12,14 +12,12 @@ constexpr double kFar = 0.5;     // bricks: pairs of subtrees that are further a
 constexpr double kTurned = 0.4;  // bricks that parts of bricks move, at least, as these turn by a radian
 }  // namespace
 
-ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing,
-                           LeftOut left_out)
+ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing)
     : a_(a),
       b_(b),
       margin_(margin),
       lists_(lists),
       facing_(facing),
-      left_out_(left_out),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)) {}
 
 double ContactFront::turn_until_facing(int a, int b) {
@@ -98,10 +96,8 @@ void ContactFront::look(int a, int b, int list) {
     free_lists_.push_back(list);
   };
   if (is_self() && one.is_leaf() && other.is_leaf()) {
-    const ContactSurface& skin = a_.skin();
-    const auto& left_out = left_out_ == LeftOut::kConnected ? skin.connected : skin.neighbours;
-    const std::vector<int>& rows = left_out[a_.brick_of(one)];
-    if (std::binary_search(rows.begin(), rows.end(), b_.brick_of(other))) return;
+    const std::vector<int>& connected = a_.skin().connected[a_.brick_of(one)];
+    if (std::binary_search(connected.begin(), connected.end(), b_.brick_of(other))) return;
   }
   if (is_self() && a == b) return split(a, b);
   const double distance = a_.box(a).exteriorDistance(b_.box(b));

@@ -39,9 +39,6 @@ class NearLists {
 /// without approaching.
 enum class Facing { kNeeded, kIgnored };
 
-/// Which bricks of one surface are left out: those that share a node, or those with a neighbour in common too.
-enum class LeftOut { kConnected, kNeighbours };
-
 /// Which parts of two surfaces, or of one with itself, are near each other, and which points face which triangles
 /// there. Pairs of subtrees make up a front through the product of the two trees: each has a distance by which its
 /// parts must approach before it is checked again, and is charged with how far any two points of the two can have come
@@ -49,14 +46,13 @@ enum class LeftOut { kConnected, kNeighbours };
 /// split if it is near; pairs of bricks that are near are listed.
 ///
 /// Rigorous: bricks whose points, edges or triangles can meet before the trees are followed again are listed, except
-/// that some of one surface are left out (LeftOut), and that normals may have to face each other, which is checked
-/// again when they may have turned by kBent.
+/// those of one surface that share a node, and that normals may have to face each other, which is checked again when
+/// they may have turned by kBent.
 class ContactFront {
  public:
   /// The trees, the same twice for one surface with itself, and the lists must outlive it. Bricks within `margin` (m)
   /// are near.
-  ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing = Facing::kNeeded,
-               LeftOut left_out = LeftOut::kNeighbours);
+  ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing);
 
   /// Call after SurfaceTree::follow(). Returns whether any list has changed.
   bool advance();
@@ -106,7 +102,6 @@ class ContactFront {
   double margin_;  // m
   NearLists& lists_;
   Facing facing_;
-  LeftOut left_out_;
   double brick_;  // m, of the finer of the two
   bool has_changed_ = false;
   std::size_t size_ = 0;  // pairs

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "core/types.h"
 
 namespace sprung {
@@ -9,5 +11,15 @@ struct RigidMotion {
   Vec3 spin;   // rad/s
   [[nodiscard]] Vec3 at(const Vec3& position) const { return shift + spin.cross(position); }
 };
+
+struct MovingMass {
+  double mass;    // kg
+  Vec3 position;  // m
+  Vec3 velocity;  // m/s
+};
+
+/// The rigid motion with the momentum and angular momentum of these masses: that of least kinetic energy. Masses at one
+/// point do not turn.
+[[nodiscard]] RigidMotion rigid_motion_of(std::span<const MovingMass> masses);
 
 }  // namespace sprung

@@ -60,26 +60,11 @@ constexpr Eigen::Index kFitted = 64;  // about this many points suffice
 /// The least-squares rigid motion of vectors at some of these positions.
 RigidMotion rigid_fit(const Points& positions, const Points& vectors) {
   const Eigen::Index stride = std::max(Eigen::Index{1}, positions.rows() / kFitted);
-  Vec3 middle = Vec3::Zero();
-  Vec3 mean = Vec3::Zero();
+  std::vector<MovingMass> some;
   for (Eigen::Index row = 0; row < positions.rows(); row += stride) {
-    middle += positions.row(row);
-    mean += vectors.row(row);
+    some.push_back({1, positions.row(row), vectors.row(row)});
   }
-  const Eigen::Index count = (positions.rows() + stride - 1) / stride;
-  middle /= double(count);
-  mean /= double(count);
-  Mat3 second = Mat3::Zero();
-  Vec3 moment = Vec3::Zero();
-  for (Eigen::Index row = 0; row < positions.rows(); row += stride) {
-    const Vec3 arm = positions.row(row).transpose() - middle;
-    second += arm * arm.transpose();
-    moment += arm.cross(Vec3(vectors.row(row)));
-  }
-  const Mat3 inertia = second.trace() * Mat3::Identity() - second;
-  const Vec3 spin = inertia.ldlt().solve(moment);
-  if (!spin.allFinite()) return {mean, Vec3::Zero()};
-  return {mean - spin.cross(middle), spin};
+  return rigid_motion_of(some);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
 void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
   std::vector<std::vector<std::size_t>> bodies;
   for (const GroupSteps& group : groups) bodies.push_back(group.bodies);
-  contacts_.begin_frame(world_, bodies, search_);
+  contacts_.begin_frame(world_, bodies);
 }
 
 std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,
@@ -141,7 +141,7 @@ std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> grou
       chunk[i].elapsed = all.dt * double(first);
     }
     try {
-      advance(world_, scheme_, chunk, time, &contacts_);
+      advance(world_, scheme_, chunk, time, contacts_);
     } catch (const Diverged& error) {
       return error;
     }

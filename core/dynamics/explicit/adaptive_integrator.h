@@ -26,15 +26,14 @@ class AdaptiveIntegrator {
   /// Receives the reason why a frame is undone.
   using Tell = std::function<void(const std::string& message)>;
 
-  AdaptiveIntegrator(World& world, Scheme scheme, ContactSearch search = ContactSearch::kInTime)
-      : world_(world), scheme_(scheme), search_(search) {}
+  AdaptiveIntegrator(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
   /// From `time` on by `duration` (s); obstacles move uniformly. Returns the steps each group took. Deterministic for
   /// any number of threads. Throws Diverged naming time, body, the brick's position and what to change if no step is
   /// short enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
-  /// Of the last frame, if the world guards against crossings.
+  /// Of the last frame.
   [[nodiscard]] GuardCounts guard_counts() const { return contacts_.guard_counts(); }
 
   /// The state besides positions and velocities that the next frame depends on.
@@ -47,7 +46,6 @@ class AdaptiveIntegrator {
 
   World& world_;
   Scheme scheme_;
-  ContactSearch search_;
   ContactStates contacts_;
   int halvings_ = 0;  // kept from frame to frame
 };

@@ -8,16 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/body/body.h"
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
-#include "core/contact/contact_solver.h"
 #include "core/contact/contact_states.h"
-#include "core/contact/glue.h"
 #include "core/dynamics/explicit/implicit_damping.h"
 #include "core/dynamics/linear/eigenvalue_bound.h"
 #include "core/error.h"
@@ -147,18 +144,12 @@ Eigen::VectorXd inverse_masses_of(const SoftBody& body) {
 /// Bodies that touch each other, during a number of steps.
 class GroupStepper {
  public:
-  GroupStepper(World& world, const GroupSteps& group, const ContactStates* states)
-      : world_(world), elapsed_(group.elapsed) {
-    Group bodies;
+  GroupStepper(World& world, const GroupSteps& group, const ContactStates& states)
+      : world_(world), elapsed_(group.elapsed), contacts_(states.of(group.bodies)) {
     for (const std::size_t i : group.bodies) {
-      bodies.push_back(&world.bodies[i]);
       inverse_masses_.push_back(inverse_masses_of(world.bodies[i]));
       steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world));
     }
-    const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
-    swept_ = contacts.swept;
-    if (swept_) return;
-    impulses_.emplace(std::move(bodies), inverse_masses_, glue_within(world, group.bodies), contacts.skins);
   }
 
   void kick(double dt) {
@@ -166,11 +157,7 @@ class GroupStepper {
   }
 
   void apply_contact(double dt) {
-    if (swept_) {
-      swept_->apply(world_, inverse_masses_, elapsed_, dt);
-    } else {
-      impulses_->apply(world_, elapsed_, dt);
-    }
+    contacts_.apply(world_, inverse_masses_, elapsed_, dt);
     elapsed_ += dt;
   }
 
@@ -197,8 +184,7 @@ class GroupStepper {
   double elapsed_;
   std::vector<std::unique_ptr<BodyStepper>> steppers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
-  std::shared_ptr<SweptContacts> swept_;   // none: by impulses_
-  std::optional<ContactSolver> impulses_;  // none: by swept_
+  SweptContacts& contacts_;
 };
 
 void check_finite(const World& world, double time) {
@@ -232,7 +218,7 @@ void verlet(GroupStepper& stepper, double dt, long steps) {
 }  // namespace
 
 void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
-             const ContactStates* states) {
+             const ContactStates& states) {
   const auto advance_group = [&](const GroupSteps& group) {
     GroupStepper stepper(world, group, states);
     if (scheme == Scheme::kVerlet) {
@@ -249,12 +235,15 @@ void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, do
 }
 
 void advance(World& world, Scheme scheme, double dt, long steps, double time) {
-  std::vector<GroupSteps> groups;
   const double duration = dt * double(steps);
-  for (std::vector<std::size_t>& bodies : contact_groups(world, duration)) {
-    groups.push_back({.bodies = std::move(bodies), .steps = {.count = steps, .dt = dt}});
+  const std::vector<std::vector<std::size_t>> bodies = contact_groups(world, duration);
+  ContactStates states;
+  states.begin_frame(world, bodies);
+  std::vector<GroupSteps> groups;
+  for (const std::vector<std::size_t>& rows : bodies) {
+    groups.push_back({.bodies = rows, .steps = {.count = steps, .dt = dt}});
   }
-  advance(world, scheme, groups, time);
+  advance(world, scheme, groups, time, states);
   move_obstacles(world.obstacles, duration);
 }
 

@@ -13,8 +13,7 @@ namespace sprung {
 //       advance()              runs the groups in parallel, a chunk of steps at a time
 //         GroupStepper           kick, contact, drift: one step of one group
 //           BodyStepper            springs, damping, loads and pins of one body
-//           ContactSolver          contact by projected gradients, or ...
-//           SweptContacts          ... by one sweep and a guarantee (World::guards_crossings)
+//           SweptContacts          contact by a few sweeps of impulses, and a guarantee
 
 class ContactStates;
 
@@ -46,12 +45,11 @@ struct GroupSteps {
 
 /// Moves each group of bodies by its own steps, all at once: only those of one group touch each other. Obstacles keep
 /// the world's poses: the caller must move them. Deterministic for any number of threads. Throws Error(kDiverged)
-/// naming time `time` and the body if a position is no longer finite. `states`: of the groups; none: the search for
-/// contacts starts afresh.
-void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
-             const ContactStates* states = nullptr);
+/// naming time `time` and the body if a position is no longer finite. `states`: of these groups, in this frame.
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time, const ContactStates& states);
 
-/// The same with `steps` steps of `dt` seconds for all; moves the obstacles too.
+/// The same with `steps` steps of `dt` seconds for all, and the search for contacts started afresh; moves the obstacles
+/// too.
 void advance(World& world, Scheme scheme, double dt, long steps, double time);
 
 }  // namespace sprung

@@ -21,7 +21,6 @@ constexpr double kBrick = 0.02;  // m
 /// Moves a guarded world; after each frame of 10 ms calls see().
 template <class See>
 void swept_run(World& world, double duration, const See& see, Scheme scheme = Scheme::kSymplecticEuler) {
-  world.guards_crossings = true;
   AdaptiveIntegrator motion(world, scheme);
   for (int frame = 0; frame < std::lround(duration / 0.01); ++frame) {
     static_cast<void>(motion.advance_frame(

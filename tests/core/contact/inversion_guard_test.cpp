@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
-#include "core/contact/contact_solver.h"
+#include "core/contact/swept_contacts.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/bodies.h"
@@ -88,8 +88,8 @@ TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
                           [](const InversionRate& one) { return one.corner == InversionRate::kMeanAxes; }));
 
   const Vec3 momentum = linear_momentum(body);
-  ContactSolver impulses({&world.bodies[0]}, {body.masses.cwiseInverse()});
-  impulses.apply(world, 0, 1e-5);
+  SweptContacts contacts({&world.bodies[0]}, world, {});
+  contacts.apply(world, {body.masses.cwiseInverse()}, 0, 1e-5);
   EXPECT_LT((linear_momentum(body) - momentum).norm(), 1e-12);
   EXPECT_LT(angular_momentum(body).norm(), 1e-12);
   const double before = smallest_volume_ratio(body);

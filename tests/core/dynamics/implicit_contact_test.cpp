@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/body/forces.h"
+#include "core/contact/pairs/awake_pair.h"
 #include "core/dynamics/implicit/implicit_motion.h"
 #include "tests/support/calibrated_box.h"
 #include "tests/support/sanitized.h"
@@ -75,18 +76,18 @@ TEST(ImplicitContact, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
 
 /// A plate presses a cube to four fifths of its height: the nodes end where explicit steps leave them.
 TEST(ImplicitContact, PlatesPressAsInExplicitSteps) {
-  const auto make = [] {
+  const auto make = [](double gap) {  // m, that contact leaves
     Body cube = calibrated_box({4, 4, 4}, 0.02, 0.3, 2e4);
     cube.damping.beta = 5e-3;
     World world = world_of(std::move(cube), {0, 0, 0});
-    Obstacle plate{.shape = SolidBox{.half = {0.1, 0.01, 0.1}}, .pose = {.translation = {0, 0.09, 0}}};
+    Obstacle plate{.shape = SolidBox{.half = {0.1, 0.01, 0.1}}, .pose = {.translation = {0, 0.09 + gap, 0}}};
     plate.velocity.y() = -0.04;
     plate.friction = 0.4;
-    world.obstacles = {level_ground(0, 0.4, 0), plate};
+    world.obstacles = {level_ground(-gap, 0.4, 0), plate};
     return world;
   };
-  World explicit_world = make();
-  World implicit_world = make();
+  World explicit_world = make(kGuardedGap * 0.02);
+  World implicit_world = make(0);
   test::advance_by_stable_steps(explicit_world, Scheme::kSymplecticEuler, 0.4);
   ImplicitMotion(implicit_world, {}).advance(0.01, 40, 0);
   EXPECT_NEAR(implicit_world.obstacles[1].pose.translation.y(), 0.074, 1e-12);

@@ -1,11 +1,14 @@
+#include "core/contact/search/contact_front.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
 
-#include "core/contact/search/facing_lists.h"
 #include "core/world/world.h"
 #include "tests/support/horseshoe.h"
 #include "tests/support/touching.h"
@@ -30,6 +33,26 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
+/// The bricks that a front lists, by number of the list.
+class BrickLists : public NearLists {
+ public:
+  bool fill(const NearBricks& bricks) override {
+    lists_[bricks.list] = {bricks.a, bricks.b};
+    return true;
+  }
+  bool clear(int list) override { return lists_.erase(list) > 0; }
+  void clear() override { lists_.clear(); }
+
+  [[nodiscard]] std::set<std::array<int, 2>> listed() const {
+    std::set<std::array<int, 2>> pairs;
+    for (const auto& [list, bricks] : lists_) pairs.insert(bricks);
+    return pairs;
+  }
+
+ private:
+  std::map<int, std::array<int, 2>> lists_;
+};
+
 /// Two surfaces, or one, on random trajectories, a front between them, and all pairs of points and triangles.
 class FrontRace {
  public:
@@ -38,19 +61,16 @@ class FrontRace {
         b_(b),
         tree_a_(contact_surface_of(a), a),
         tree_b_(contact_surface_of(b), b),
-        lists_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.7 * a.grid.brick_size),
-        front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_),
+        front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_,
+               is_self() ? Facing::kNeeded : Facing::kIgnored),
         dt_(dt) {}
 
-  /// Returns how many pairs come into contact range in this step and are in no list; adds those that are to near.
+  /// Returns how many pairs that can meet in this step are of bricks in no list; adds all that can to near.
   long step(long& near) {
     tree_a_.follow(dt_, 0);
     if (!is_self()) tree_b_.follow(dt_, 0);
     static_cast<void>(front_.advance());
-    std::set<std::array<int, 3>> listed;
-    for (const std::vector<FacingPair>& list : lists_.lists()) {
-      for (const FacingPair& pair : list) listed.insert({int(pair.side), pair.point, pair.triangle});
-    }
+    const std::set<std::array<int, 2>> listed = lists_.listed();
     long missed = count_missed(a_, b_, 0, listed, near);
     if (!is_self()) missed += count_missed(b_, a_, 1, listed, near);
     a_.positions += dt_ * a_.velocities;
@@ -61,7 +81,7 @@ class FrontRace {
  private:
   [[nodiscard]] bool is_self() const { return &a_ == &b_; }
 
-  long count_missed(SoftBody& points_of, SoftBody& triangles_of, int side, const std::set<std::array<int, 3>>& listed,
+  long count_missed(SoftBody& points_of, SoftBody& triangles_of, int side, const std::set<std::array<int, 2>>& listed,
                     long& near) {
     const ContactSurface& skin = contact_surface_of(points_of);
     const ContactSurface& other = contact_surface_of(triangles_of);
@@ -78,7 +98,7 @@ class FrontRace {
         const Vec3 speed = carried(points_of, skin.points[i], points_of.velocities);
         const Vec3 normal = carried_normal(points_of, skin.bricks[row], skin.normals.row(i));
         for (int other_row = 0; other_row < isize(other.bricks); ++other_row) {
-          if (is_self() && std::binary_search(skin.neighbours[row].begin(), skin.neighbours[row].end(), other_row)) {
+          if (is_self() && std::binary_search(skin.connected[row].begin(), skin.connected[row].end(), other_row)) {
             continue;
           }
           for (int t = other.first_triangle[other_row]; t < other.first_triangle[other_row + 1]; ++t) {
@@ -88,13 +108,14 @@ class FrontRace {
                 dt_ * std::max({(speed - speeds[a]).norm(), (speed - speeds[b]).norm(), (speed - speeds[c]).norm()});
             if (distance_to_triangle(place, places[a], places[b], places[c]) > way) continue;
             const Vec3 across = (places[b] - places[a]).cross(places[c] - places[a]).normalized();
-            if (!(normal.dot(across) <= kFacing)) continue;
+            if (is_self() && !(normal.dot(across) <= kFacing)) continue;
             const auto hangs = [&](int corner) {
               return share_a_node(points_of, skin.bricks[row], other.points[corner].brick);
             };
             if (is_self() && (hangs(a) || hangs(b) || hangs(c))) continue;
             ++near;
-            if (!listed.contains({side, i, t})) ++missed;
+            const bool is_listed = listed.contains({row, other_row}) && (side == 0 || is_self());
+            if (!is_listed && !((side == 1 || is_self()) && listed.contains({other_row, row}))) ++missed;
           }
         }
       }
@@ -106,7 +127,7 @@ class FrontRace {
   SoftBody& b_;
   SurfaceTree tree_a_;
   SurfaceTree tree_b_;
-  FacingLists lists_;
+  BrickLists lists_;
   ContactFront front_;
   double dt_;
 };
@@ -166,8 +187,8 @@ TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
   SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
   SurfaceTree tree_a(contact_surface_of(a), a);
   SurfaceTree tree_b(contact_surface_of(b), b);
-  FacingLists lists(tree_a, tree_b, 0.014);
-  ContactFront front(tree_a, tree_b, 0.006, lists);
+  BrickLists lists;
+  ContactFront front(tree_a, tree_b, 0.006, lists, Facing::kIgnored);
   for (SoftBody* body : {&a, &b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
   for (int step = 0; step < 100; ++step) {
     tree_a.follow(1e-3, 0);
