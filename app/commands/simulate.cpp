@@ -236,7 +236,11 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
     if (!options.json) return print_summary(recording);
     Json json = probes_json(recording);
     json["crossings"] = json_of(recording.crossings);
-    if (recording.guard.steps > 0) json["guard"] = json_of(recording.guard);
+    if (is_motion(film)) json["inverted_bricks"] = recording.inverted_bricks;
+    if (recording.guard.steps > 0) {
+      json["brick_steps"] = recording.brick_steps;
+      json["guard"] = json_of(recording.guard);
+    }
     fmt::print("{}\n", json.dump(1));
   });
 }

@@ -11,6 +11,7 @@
 #include "app/console/console.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/mesh/repair/weld.h"
+#include "core/simulation/thin_part_error.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -83,6 +84,7 @@ void add_bricks(const Body& body, const std::vector<ThinPart>& thin_parts, Brick
   facts.divided += shared_cells(grid);
   facts.volume += grid.volume();
   facts.thin_parts.insert(facts.thin_parts.end(), thin_parts.begin(), thin_parts.end());
+  facts.model = body.model;
   facts.mass += body.masses.sum();
 }
 
@@ -157,8 +159,13 @@ std::string brick_lines(const BodyFacts& body) {
                                    100 * bricks.volume_error));
   for (std::size_t i = 0; i < std::min<std::size_t>(bricks.thin_parts.size(), 3); ++i) {
     const ThinPart& part = bricks.thin_parts[i];
-    text += line("thin part", fmt::format("{}, about {} thick", count_of(part.bricks.size(), "brick"),
-                                          readable(part.thickness, Dimension::kLength)));
+    const std::string error =
+        bricks.model == Model::kCalibrated
+            ? fmt::format(": bends up to {:.0f} % too little where curved", 100 * missing_bend_if_curved(part.across))
+            : "";
+    text +=
+        line("thin part", fmt::format("{}, about {} thick, {:.2g} of a brick{}", count_of(part.bricks.size(), "brick"),
+                                      readable(part.thickness, Dimension::kLength), part.across, error));
   }
   if (bricks.thin_parts.size() > 3) {
     text += line("", fmt::format("and {} more parts thinner than a brick", bricks.thin_parts.size() - 3));
@@ -205,7 +212,10 @@ Json json_of(const MeshFacts& mesh) {
 Json json_of(const BrickFacts& bricks, double unit) {
   Json parts = Json::array();
   for (const ThinPart& part : bricks.thin_parts) {
-    parts.push_back({{"bricks", part.bricks.size()}, {"thickness", part.thickness}});
+    Json json{{"bricks", part.bricks.size()}, {"thickness", part.thickness}};
+    json["thickness_bricks"] = part.across;
+    if (bricks.model == Model::kCalibrated) json["missing_bend_if_curved"] = missing_bend_if_curved(part.across);
+    parts.push_back(std::move(json));
   }
   return {{"count", bricks.count},
           {"nodes", bricks.nodes},

@@ -89,15 +89,14 @@ std::span<const Case> built_in_cases() {
        plain(run_uniaxial), nullptr},
       {"tables", "published cases from the literature: displacements, stresses, frequencies",
        "Straight, curved and twisted beams, membranes, plates, tubes and vibrations from the literature, each on one "
-       "grid "
-       "of bricks, in the units of its source. Stresses are those recovered at the point of the surface that the "
-       "source "
-       "names.",
+       "grid of bricks, in the units of its source. Stresses are those recovered at the point of the surface that the "
+       "source names.",
        run_tables, nullptr},
-      {"cut", "parts thinner than a brick, turned or round, and large strains: calibrated beside springs",
-       "What the surface cuts out of bricks. A brick of springs has a share of a full brick's stiffness, and is too "
-       "stiff in bending by the square of what a part is thinner than it; the calibrated brick knows how the solid "
-       "lies in it. Only its figures have a tolerance.",
+      {"cut", "parts thinner than a brick, turned or round, and large strains",
+       "What the surface cuts out of bricks. The paper's brick has a share of a full brick's stiffness, and is too "
+       "stiff "
+       "in bending by the square of what a part is thinner than it; the calibrated brick knows how the solid lies in "
+       "it. Only its figures have a tolerance.",
        run_cut, nullptr}};
   return cases;
 }

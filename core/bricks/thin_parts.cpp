@@ -61,7 +61,7 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
 /// The thinnest point is where the median thickness around a brick is smallest, since a few samples at a sharp edge
 /// mean nothing.
 ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, const std::vector<WallSample>& samples,
-                  const Lists& in_brick) {
+                  const Lists& in_brick, double brick_size) {
   ThinPart part{.bricks = std::move(bricks), .thickness = std::numeric_limits<double>::infinity()};
   for (const int brick : part.bricks) {
     const std::size_t row = brick;
@@ -69,6 +69,7 @@ ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, c
     part.thickness = medians[row];
     part.position = samples[in_brick[row].front()].position;
   }
+  part.across = part.thickness / brick_size;
   return part;
 }
 
@@ -94,7 +95,7 @@ std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<W
   std::vector<ThinPart> parts;
   for (std::vector<int>& group : groups) {
     if (group.size() < least) continue;
-    parts.push_back(measured(std::move(group), medians, samples, in_brick));
+    parts.push_back(measured(std::move(group), medians, samples, in_brick, grid.brick_size));
   }
   std::erase_if(parts, [](const ThinPart& part) { return !std::isfinite(part.thickness); });
   std::stable_sort(parts.begin(), parts.end(),

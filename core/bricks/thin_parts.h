@@ -10,6 +10,7 @@ namespace sprung {
 struct ThinPart {
   std::vector<int> bricks;       // rows of the grid
   double thickness = 0;          // m, where it is thinnest: the median around a brick
+  double across = 0;             // bricks, likewise
   Vec3 position = Vec3::Zero();  // a point of the surface there
 };
 

@@ -32,6 +32,8 @@ class SceneMotion {
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
   /// Of all explicit steps so far.
   [[nodiscard]] const GuardCounts& guard_counts() const { return guard_counts_; }
+  /// Likewise, each step counting the bricks that took it.
+  [[nodiscard]] double brick_steps() const { return brick_steps_; }
   /// None for explicit steps.
   [[nodiscard]] std::optional<ImplicitMotion::Report> implicit_report() const;
   /// Reactions of the pins by body (m x 3, N) in the current state, without the inertia of the pinned nodes.
@@ -44,6 +46,7 @@ class SceneMotion {
   SceneDriver driver_;
   StepPlan plan_;
   GuardCounts guard_counts_;
+  double brick_steps_ = 0;
   AdaptiveIntegrator explicit_;
   std::optional<ImplicitMotion> implicit_;
 };

@@ -33,6 +33,8 @@ struct Recording {
   Eigen::VectorXd frequencies;       // Hz, of modes
   std::vector<Crossings> crossings;  // of the frames of a motion that this run computed, but the first
   GuardCounts guard;                 // of the explicit steps that this run computed
+  double brick_steps = 0;            // of those steps, each counting the bricks that took it
+  int inverted_bricks = 0;           // in the last frame of a motion
   std::uint64_t state_hash = 0;      // of the last frame's node positions and velocities
 };
 

@@ -219,6 +219,8 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
   run.finish(first, frame);
   recorder.recording().crossings = run.crossings();
   recorder.recording().guard = run.motion().guard_counts();
+  recorder.recording().brick_steps = run.motion().brick_steps();
+  recorder.recording().inverted_bricks = inverted_bricks(simulation.world);
   return recorder.finish();
 }
 

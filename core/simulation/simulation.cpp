@@ -16,6 +16,7 @@
 #include "core/simulation/body_loads.h"
 #include "core/simulation/build_bodies.h"
 #include "core/simulation/observer.h"
+#include "core/simulation/thin_part_error.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -118,7 +119,9 @@ class ThinParts {
         "about {} thick{}",
         body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
         count_of(bricks_, "brick"),
-        is_known ? "up to a fifth too stiff where they are curved" : "stiffer and blunter than they should be",
+        is_known ? fmt::format("they bend up to {:.0f} % too little where they are curved",
+                               100 * missing_bend_if_curved(thinnest_.across))
+                 : "stiffer and blunter than they should be",
         place.x(), place.y(), place.z(), readable(thinnest_.thickness, Dimension::kLength),
         is_known ? "" : ": bricks of that size would hold it"));
   }

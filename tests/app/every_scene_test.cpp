@@ -14,14 +14,21 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> scenes() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(SPRUNG_SOURCE_DIR "/assets/scenes")) {
+  for (const auto& entry : fs::recursive_directory_iterator(SPRUNG_SOURCE_DIR "/assets/scenes")) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-/// The first frame of every scene of assets/scenes with all its bricks; scene_facts_test.cpp checks the rest.
+/// "stack", or "contact_stack" of the folder contact.
+std::string name_of(const fs::path& scene) {
+  const std::string folder = scene.parent_path().stem().string();
+  return (folder == "scenes" ? "" : folder + "_") + scene.stem().string();
+}
+
+/// The first frame of every scene of assets/scenes with all its bricks; scene_facts_test.cpp checks the rest, and
+/// tests/bench/scenes those about contact.
 class EveryScene : public testing::TestWithParam<fs::path> {};
 
 TEST_P(EveryScene, BeginsSoundly) {
@@ -40,7 +47,7 @@ TEST_P(EveryScene, BeginsSoundly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryScene, testing::ValuesIn(scenes()),
-                         [](const auto& scene) { return scene.param.stem().string(); });
+                         [](const auto& scene) { return name_of(scene.param); });
 
 }  // namespace
 }  // namespace sprung

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "app/inspect/forecast.h"
@@ -85,6 +86,9 @@ TEST_F(Inspect, WarnsAsAnimateDoesAndBothOnce) {
   const ProgramRun seen = run("plate.obj --bricks 12 --json");
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
   EXPECT_NE(seen.out.find("plate.obj: 1 part is thinner than a brick"), std::string::npos) << seen.out;
+  const nlohmann::json part = nlohmann::json::parse(seen.out)["bricks"]["thin_parts"][0];
+  EXPECT_NEAR(part["thickness_bricks"].get<double>(), 0.24, 0.01);
+  EXPECT_NEAR(part["missing_bend_if_curved"].get<double>(), 0.24, 0.01);
   const ProgramRun made = run_program(
       folder_, "animate plate.obj --bricks 12 --duration 0.05 --fps 20 --resolution 160x120 --samples 1 -o out");
   ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -8,13 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 #include "core/dynamics/implicit/implicit_motion.h"
 #include "core/dynamics/linear/stiffness.h"
 #include "core/dynamics/statics/statics.h"
+#include "core/error.h"
 #include "tests/bench/bench_bodies.h"
 
 namespace {
@@ -69,22 +72,28 @@ struct SupportedBody {
   }
 };
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // s: it did not converge
+
 double static_solve(SupportedBody supported, LinearSolver& system) {
   const Points start = supported.body.positions;
-  return seconds(
-      [&] { solve_static(supported.body, supported.supports, supported.loads, start, system, {.tolerance = 1e-6}); });
+  try {
+    return seconds(
+        [&] { solve_static(supported.body, supported.supports, supported.loads, start, system, {.tolerance = 1e-6}); });
+  } catch (const Error&) {
+    return kNone;
+  }
 }
 
 /// Linearize and solve once.
 double linear_solve(const SupportedBody& supported, LinearSolver& system, double tolerance) {
   const StepTerms none;
   const Eigen::Map<const Eigen::VectorXd> forces(supported.loads.data(), supported.loads.size());
-  return seconds([&] {
-    if (!system.linearize(supported.body, supported.supports, false, none) ||
-        system.solve(forces, tolerance).size() == 0) {
-      std::abort();
-    }
+  bool is_solved = false;
+  const double time = seconds([&] {
+    is_solved =
+        system.linearize(supported.body, supported.supports, false, none) && system.solve(forces, tolerance).size() > 0;
   });
+  return is_solved ? time : kNone;
 }
 
 double diagonal_solve(const SupportedBody& supported) {
@@ -116,12 +125,12 @@ void print_row(const char* name, const SupportedBody& body, int direct_up_to) {
   const double still = static_solve(body, *make_multigrid_solver());
   const auto [step, iterations] = implicit_step(body);
   const bool has_direct = bricks <= direct_up_to;
-  const double direct = has_direct ? linear_solve(body, *make_direct_solver(), 0) : 0;
-  const double still_direct = has_direct ? static_solve(body, *make_direct_solver()) : 0;
-  const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
-  fmt::print("| {} | {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name, model_name(body.body.model),
-             bricks, linear, time(has_direct, direct), diagonal_solve(body), still, time(has_direct, still_direct),
-             step, iterations);
+  const double direct = has_direct ? linear_solve(body, *make_direct_solver(), 0) : kNone;
+  const double still_direct = has_direct ? static_solve(body, *make_direct_solver()) : kNone;
+  const auto time = [](double value) { return std::isnan(value) ? "-" : fmt::format("{:.3g}", value); };
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, model_name(body.body.model), bricks,
+             time(linear), time(direct), time(diagonal_solve(body)), time(still), time(still_direct), time(step),
+             iterations);
   std::fflush(stdout);
 }
 
