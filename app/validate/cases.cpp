@@ -94,8 +94,8 @@ std::span<const Case> built_in_cases() {
        run_tables, nullptr},
       {"cut", "parts thinner than a brick, turned or round, and large strains",
        "What the surface cuts out of bricks. The paper's brick has a share of a full brick's stiffness, and is too "
-       "stiff "
-       "in bending by the square of what a part is thinner than it; the calibrated brick knows how the solid lies in "
+       "stiff in bending by the square of what a part is thinner than it; the calibrated brick knows how the solid "
+       "lies in "
        "it. Only its figures have a tolerance.",
        run_cut, nullptr}};
   return cases;

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "core/types.h"
 
 namespace sprung {
@@ -15,5 +17,11 @@ struct FeatureDistance {
 /// Between the edges from `a` to `b` and from `c` to `d`; for parallel ones, some pair of nearest points. Ericson,
 /// 5.1.9.
 [[nodiscard]] FeatureDistance edge_to_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// Either of them, by the first feature's number of corners: 1, a point; 2, an edge.
+[[nodiscard]] inline FeatureDistance feature_distance(int count, const std::array<Vec3, 4>& corners) {
+  const auto& [a, b, c, d] = corners;
+  return count == 1 ? point_to_triangle(a, b, c, d) : edge_to_edge(a, b, c, d);
+}
 
 }  // namespace sprung

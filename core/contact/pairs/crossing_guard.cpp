@@ -76,8 +76,7 @@ bool CrossingGuard::stay_apart_turning(const AwakePair& pair, double dt) const {
     now[corner] = near_.position(pair, corner);
     then[corner] = now[corner] + dt * near_.velocity(pair, corner);
   }
-  const FeatureDistance after = pair.pair.count == 1 ? point_to_triangle(then[0], then[1], then[2], then[3])
-                                                     : edge_to_edge(then[0], then[1], then[2], then[3]);
+  const FeatureDistance after = feature_distance(pair.pair.count, then);
   const Vec3 normal_then = after.apart.normalized();
   if (!(after.apart.norm() > pair.gap - allowed_approach(pair, near_.brick()))) return false;
   for (int i = 0; i < pair.pair.count; ++i) {

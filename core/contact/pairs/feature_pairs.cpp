@@ -36,7 +36,7 @@ FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_
       inside_{std::vector<Inside>(a.skin().points.size()), std::vector<Inside>(b.skin().points.size())},
       loaded_{std::vector<long>(std::size_t(a.body().node_count()), -1),
               std::vector<long>(std::size_t(b.body().node_count()), -1)},
-      front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored) {}
+      front_(a, b, kNear * brick_, *this) {}
 
 bool FeaturePairs::fill(const NearBricks& bricks) {
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));
@@ -147,8 +147,7 @@ double FeaturePairs::reach_of(const FeaturePair& pair) {
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
   std::array<Vec3, 4> x;
   for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).position_of(pair.corners[i]);
-  const FeatureDistance found =
-      pair.count == 1 ? point_to_triangle(x[0], x[1], x[2], x[3]) : edge_to_edge(x[0], x[1], x[2], x[3]);
+  const FeatureDistance found = feature_distance(pair.count, x);
   const double gap = found.apart.norm();
   AwakePair measured{.pair = pair,
                      .bodies = bodies_,

@@ -12,12 +12,11 @@ constexpr double kFar = 0.5;     // bricks: pairs of subtrees that are further a
 constexpr double kTurned = 0.4;  // bricks that parts of bricks move, at least, as these turn by a radian
 }  // namespace
 
-ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing)
+ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists)
     : a_(a),
       b_(b),
       margin_(margin),
       lists_(lists),
-      facing_(facing),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)) {}
 
 double ContactFront::turn_until_facing(int a, int b) {
@@ -108,7 +107,7 @@ void ContactFront::look(int a, int b, int list) {
     drop_list();
     return keep(a, b, distance, -1);
   }
-  if (const double turn = turn_until_facing(a, b); facing_ == Facing::kNeeded && turn > kBent) {
+  if (const double turn = turn_until_facing(a, b); is_self() && turn > kBent) {
     drop_list();
     return keep(a, b, std::max(kTurned * turn * brick_, distance), -1);
   }

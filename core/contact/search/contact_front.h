@@ -35,24 +35,20 @@ class NearLists {
   virtual void clear() = 0;
 };
 
-/// Whether surfaces must face each other to be near: bricks of one surface with similar normals are near each other
-/// without approaching.
-enum class Facing { kNeeded, kIgnored };
-
-/// Which parts of two surfaces, or of one with itself, are near each other, and which points face which triangles
-/// there. Pairs of subtrees make up a front through the product of the two trees: each has a distance by which its
-/// parts must approach before it is checked again, and is charged with how far any two points of the two can have come
-/// closer: bodies that fall or turn together cost nothing. When a pair's distance is used up, it is measured again, and
-/// split if it is near; pairs of bricks that are near are listed.
+/// Which parts of two surfaces, or of one with itself, are near each other. Pairs of subtrees make up a front through
+/// the product of the two trees: each has a distance by which its parts must approach before it is checked again, and
+/// is charged with how far any two points of the two can have come closer: bodies that fall or turn together cost
+/// nothing. When a pair's distance is used up, it is measured again, and split if it is near; pairs of bricks that are
+/// near are listed.
 ///
-/// Rigorous: bricks whose points, edges or triangles can meet before the trees are followed again are listed, except
-/// those of one surface that share a node, and that normals may have to face each other, which is checked again when
-/// they may have turned by kBent.
+/// Rigorous: bricks whose points, edges or triangles can meet before the trees are followed again are listed, except,
+/// of one surface, those that share a node and those whose normals do not face each other: bricks with similar normals
+/// are near without approaching. That is checked again when normals may have turned by kBent.
 class ContactFront {
  public:
   /// The trees, the same twice for one surface with itself, and the lists must outlive it. Bricks within `margin` (m)
   /// are near.
-  ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing);
+  ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists);
 
   /// Call after SurfaceTree::follow(). Returns whether any list has changed.
   bool advance();
@@ -101,7 +97,6 @@ class ContactFront {
   SurfaceTree& b_;
   double margin_;  // m
   NearLists& lists_;
-  Facing facing_;
   double brick_;  // m, of the finer of the two
   bool has_changed_ = false;
   std::size_t size_ = 0;  // pairs

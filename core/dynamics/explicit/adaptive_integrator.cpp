@@ -115,6 +115,16 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   return groups;
 }
 
+double brick_steps_of(const World& world, std::span<const GroupSteps> groups) {
+  double sum = 0;
+  for (const GroupSteps& group : groups) {
+    for (const std::size_t row : group.bodies) {
+      sum += double(group.steps.count) * world.bodies[row].grid.brick_count();
+    }
+  }
+  return sum;
+}
+
 void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
   std::vector<std::vector<std::size_t>> bodies;
   for (const GroupSteps& group : groups) bodies.push_back(group.bodies);
@@ -123,15 +133,9 @@ void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
 
 std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,
                                                 const Between& between) {
-  double brick_steps = 0;
   long chunks = std::numeric_limits<long>::max();
-  for (const GroupSteps& group : groups) {
-    for (const std::size_t i : group.bodies) {
-      brick_steps += double(group.steps.count) * world_.bodies[i].grid.brick_count();
-    }
-    chunks = std::min(chunks, group.steps.count);
-  }
-  chunks = std::clamp(long(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
+  for (const GroupSteps& group : groups) chunks = std::min(chunks, group.steps.count);
+  chunks = std::clamp(long(std::ceil(brick_steps_of(world_, groups) / kBrickStepsBetween)), 1L, chunks);
   std::vector<GroupSteps> chunk(groups.begin(), groups.end());
   for (long done = 0; done < chunks; ++done) {
     for (std::size_t i = 0; i < groups.size(); ++i) {

@@ -17,6 +17,9 @@ namespace sprung {
 /// quarter of the group's smallest brick in a step. Throws Diverged if that would take too many steps.
 [[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
+/// Of all groups: steps, each counting the bricks that take it.
+[[nodiscard]] double brick_steps_of(const World& world, std::span<const GroupSteps> groups);
+
 /// Advances a world frame by frame and checks each one: a number that is not finite, or a spurious gain of energy, is
 /// detected in the frame it appears in. The frame is then undone and repeated in steps half as long, up to a few times.
 class AdaptiveIntegrator {

@@ -61,8 +61,7 @@ class FrontRace {
         b_(b),
         tree_a_(contact_surface_of(a), a),
         tree_b_(contact_surface_of(b), b),
-        front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_,
-               is_self() ? Facing::kNeeded : Facing::kIgnored),
+        front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_),
         dt_(dt) {}
 
   /// Returns how many pairs that can meet in this step are of bricks in no list; adds all that can to near.
@@ -188,7 +187,7 @@ TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
   SurfaceTree tree_a(contact_surface_of(a), a);
   SurfaceTree tree_b(contact_surface_of(b), b);
   BrickLists lists;
-  ContactFront front(tree_a, tree_b, 0.006, lists, Facing::kIgnored);
+  ContactFront front(tree_a, tree_b, 0.006, lists);
   for (SoftBody* body : {&a, &b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
   for (int step = 0; step < 100; ++step) {
     tree_a.follow(1e-3, 0);
