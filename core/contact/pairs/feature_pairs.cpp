@@ -145,19 +145,35 @@ double FeaturePairs::reach_of(const FeaturePair& pair) {
 }
 
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
-  std::array<Vec3, 4> x;
-  for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).position_of(pair.corners[i]);
-  const FeatureDistance found = feature_distance(pair.count, x);
-  const double gap = found.apart.norm();
   AwakePair measured{.pair = pair,
                      .bodies = bodies_,
-                     .normal = found.apart / std::max(gap, 1e-300),
-                     .gap = gap,
-                     .weights = found.weights,
+                     .normal = Vec3::Zero(),
+                     .gap = 0,
+                     .weights = Eigen::Vector4d::Zero(),
                      .reach = reach_of(pair),
                      .friction = friction_};
-  if (gap < kTouching * brick_) measured.normal = normal_of_touching(measured);
+  measure_gap(measured);
   return measured;
+}
+
+void FeaturePairs::measure_gap(AwakePair& pair) {
+  std::array<Vec3, 4> x;
+  for (int i = 0; i < 4; ++i) x[i] = tree(pair.pair.side(i)).position_of(pair.pair.corners[i]);
+  const FeatureDistance found = feature_distance(pair.pair.count, x);
+  pair.gap = found.apart.norm();
+  pair.normal = found.apart / std::max(pair.gap, 1e-300);
+  pair.weights = found.weights;
+  if (pair.gap < kTouching * brick_) pair.normal = normal_of_touching(pair);
+}
+
+void FeaturePairs::track(AwakePair& pair) {
+  const bool is_inside = pair.gap < 0;
+  const bool was_support = pair.may_support;
+  measure_gap(pair);
+  pair.may_support = pair.pair.count == 1 || !is_at_end(pair);
+  if (pair.pair.count == 1) orient(pair, is_inside);
+  pair.may_support = pair.may_support && was_support;
+  pair.is_loaded = !pair.impulse->isZero(0);
 }
 
 Vec3 FeaturePairs::facing_of(const AwakePair& pair) {

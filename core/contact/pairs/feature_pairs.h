@@ -26,6 +26,9 @@ class FeaturePairs : private NearLists {
   void wake();
   /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
   void measure(std::vector<AwakePair>& awake);
+  /// Updates the geometry of a pair that was measured since the last call of wake(). Which of several pairs supports a
+  /// point is not decided anew.
+  void track(AwakePair& pair);
 
  private:
   struct Sleeper {
@@ -79,6 +82,8 @@ class FeaturePairs : private NearLists {
   /// The gap (m) at which contact keeps two features: so that what is drawn at them keeps off too.
   [[nodiscard]] double reach_of(const FeaturePair& pair);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
+  /// Finds a pair's gap, normal and weights.
+  void measure_gap(AwakePair& pair);
   /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
   /// of its last if it is 2.
   [[nodiscard]] bool pierces(const AwakePair& edges, int edge);

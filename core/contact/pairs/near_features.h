@@ -28,8 +28,8 @@ class NearFeatures {
   /// Whether bodies and obstacles still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces(const World& world) const;
 
-  /// Measures the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`: since the obstacles had
-  /// the world's poses, s.
+  /// Finds the current geometry of the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`:
+  /// since the obstacles had the world's poses, s.
   void begin_step(const World& world, double elapsed, double dt);
   /// Once velocities are those of the step: finds and measures all pairs that may meet, if something deviates from the
   /// prediction. Returns whether it did.
@@ -89,11 +89,16 @@ class NearFeatures {
   };
 
   void make_surfaces(const World& world, bool with_outlines);
+  /// `surfaces`: by row of pairs_.
+  void arrange_rounds(const std::vector<std::array<std::size_t, 2>>& surfaces);
   /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
   [[nodiscard]] double deviation(double dt) const;
   /// `slack`: how far nodes may deviate from the prediction, bricks.
   void predict(const World& world, double dt, double slack);
   void measure(const World& world);
+  void measure_shapes(const World& world, std::vector<AwakePair>& awake);
+  /// Updates the geometry of what was measured after the last prediction.
+  void track(const World& world);
 
   Group group_;
   std::vector<Shape> shapes_;               // of the obstacles
@@ -101,9 +106,13 @@ class NearFeatures {
   double brick_;                            // m
   Surfaces surfaces_;
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
-  std::vector<Against> against_;
-  std::vector<Pose> poses_;  // of all obstacles, in this step
-  std::vector<AwakePair> awake_;
+  /// Rows of these: no surface occurs twice in a round, whose pairs can be found at once.
+  std::vector<std::vector<std::size_t>> rounds_;
+  std::vector<std::vector<Against>> against_;  // by body
+  std::vector<Pose> poses_;                    // of all obstacles, in this step
+  std::vector<AwakePair> awake_;               // those of obstacles without edges first
+  std::vector<FeaturePairs*> owners_;          // of the others
+  std::vector<AwakePair> of_shapes_;
   std::vector<std::optional<bool>> are_entangled_;  // of these, as far as asked
   /// At the last prediction: how far it reaches, and the nodes.
   struct Seen {
