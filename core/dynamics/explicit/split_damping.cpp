@@ -1,0 +1,100 @@
+#include "core/dynamics/explicit/split_damping.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/body/body.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kFastestRatio = 0.25;    // damping ratio of the fastest vibration in steps: a fifth shorter
+constexpr double kPeriodShare = 1.0 / 8;  // of the slowest vibration, between two applications
+constexpr double kMargin = 2;             // the square of the fastest frequency may grow by
+constexpr double kChebyshevDamping = 2.0 / 13;
+
+/// A Chebyshev polynomial of the first kind and its first two derivatives at w > 1.
+struct Chebyshev {
+  double value;
+  double slope;
+  double bend;
+  Chebyshev(int degree, double w) {
+    const double sine = std::sqrt(w * w - 1);
+    const double angle = degree * std::log(w + sine);
+    value = std::cosh(angle);
+    slope = degree * std::sinh(angle) / sine;
+    bend = (degree * degree * value - w * slope) / (sine * sine);
+  }
+};
+
+int stages_for(double decay) { return 2 + int(std::sqrt(1 + 1.54 * decay)); }
+
+}  // namespace
+
+DampingShares damping_shares(const Body& body, double frequency_squared) {
+  DampingShares shares{.of_steps = body.damping};
+  if (body.model == Model::kFem) return shares;
+  const double most = 2 * kFastestRatio / std::sqrt(frequency_squared);
+  shares.of_steps.beta = std::min(most, body.damping.beta);
+  shares.split_beta = body.damping.beta - shares.of_steps.beta;
+  return shares;
+}
+
+SplitDamping::SplitDamping(SoftBody& body, double beta, double frequency_squared)
+    : body_(body), beta_(beta), rate_(kMargin * beta * frequency_squared) {
+  if (beta_ == 0) return;
+  longest_ = kPeriodShare / slowest_frequency(body.material, length_of(body));
+  inverse_masses_.resize(3 * body.masses.size());
+  for (Eigen::Index node = 0; node < body.masses.size(); ++node) {
+    inverse_masses_.segment<3>(3 * node).setConstant(1 / body.masses[node]);
+  }
+  for (const KinematicNode& pinned : body.pinned) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (pinned.axes[axis]) inverse_masses_[3 * pinned.node + axis] = 0;
+    }
+  }
+}
+
+bool SplitDamping::add(double dt) {
+  if (beta_ == 0) return false;
+  due_ += dt;
+  return due_ + dt > longest_;
+}
+
+void SplitDamping::find_change(const Eigen::VectorXd& u, Eigen::VectorXd& change) {
+  multiply_damping(body_, body_.positions, due_ * beta_, u, workspace_, product_);
+  change = -inverse_masses_.cwiseProduct(product_);
+}
+
+void SplitDamping::settle() {
+  if (due_ == 0) return;
+  const int stages = stages_for(due_ * rate_);
+  const double w = 1 + kChebyshevDamping / (stages * stages);
+  const Chebyshev last(stages, w);
+  const double scale = last.slope / last.bend;
+  const auto factor = [&](int stage) {
+    const Chebyshev of_stage(std::max(stage, 2), w);
+    return of_stage.bend / (of_stage.slope * of_stage.slope);
+  };
+  Eigen::Map<Eigen::VectorXd> v(body_.velocities.data(), body_.velocities.size());
+  Eigen::VectorXd at_first;
+  find_change(v, at_first);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(v.size());
+  Eigen::VectorXd sum = factor(1) * scale * at_first;  // of what v has changed by
+  Eigen::VectorXd change;
+  for (int stage = 2; stage <= stages; ++stage) {
+    const double ours = factor(stage);
+    const double previous = factor(stage - 1);
+    const double mu = 2 * ours * w / previous;
+    const double nu = -ours / factor(stage - 2);
+    const double step = 2 * ours * scale / previous;
+    const double first_step = previous * Chebyshev(stage - 1, w).value * step;
+    find_change(sum, change);
+    before = mu * sum + nu * before + step * change + first_step * at_first;
+    std::swap(before, sum);
+  }
+  v += sum;
+  due_ = 0;
+}
+
+}  // namespace sprung

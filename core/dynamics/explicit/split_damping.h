@@ -1,0 +1,52 @@
+#pragma once
+#include <vector>
+
+#include "core/dynamics/linear/stiffness.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// How explicit steps damp a body's springs. All of beta in every step would shorten them: a tenth of critical at the
+/// slowest vibration is many times critical at the fastest, and shortens steps by as much. So every step includes the
+/// part that hardly shortens it, and the rest is applied by itself, for several steps at a time.
+struct DampingShares {
+  Rayleigh of_steps;
+  double split_beta = 0;  // s
+};
+
+/// For a body in its current state, whose highest frequency (largest_frequency_squared()) is known. Small strains
+/// (Model::kFem) are damped in every step only.
+[[nodiscard]] DampingShares damping_shares(const Body& body, double frequency_squared);
+
+/// Damps the rates of stretch during several steps at once, M v' = -beta K v, K the stiffness used by beta damping: by
+/// one step of the Runge-Kutta-Chebyshev method, second order in time, of as many stages as make it stable (Sommeijer,
+/// Shampine and Verwer, J. Comput. Appl. Math. 88, 1998): a product with K each, and the number grows with the root of
+/// the time. Both momenta of a free body are conserved. Deterministic for any number of threads.
+class SplitDamping {
+ public:
+  /// `beta` in s; 0 costs nothing. `frequency_squared`: 1/s^2, of the body's fastest vibration; it may double until
+  /// the next instance is made. The body must outlive it.
+  SplitDamping(SoftBody& body, double beta, double frequency_squared);
+
+  /// Adds the damping of a step (s). Whether so much is due that it should be applied now: the body's slowest vibration
+  /// moves little in that time.
+  [[nodiscard]] bool add(double dt);
+
+  /// Applies the damping that is still due.
+  void settle();
+
+ private:
+  /// -T beta M^-1 K u, zero at pinned nodes; T: the time that is due.
+  void find_change(const Eigen::VectorXd& u, Eigen::VectorXd& change);
+
+  SoftBody& body_;
+  double beta_;
+  double rate_;                     // 1/s, at most, at which it damps
+  double longest_ = 0;              // s, between two applications
+  Eigen::VectorXd inverse_masses_;  // 1/kg, per unknown; 0 if pinned
+  double due_ = 0;                  // s
+  ProductWorkspace workspace_;
+  Eigen::VectorXd product_;
+};
+
+}  // namespace sprung
