@@ -1,5 +1,6 @@
 #include "core/dynamics/explicit/split_damping.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,7 +28,10 @@ struct Chebyshev {
   }
 };
 
-int stages_for(double decay) { return 2 + int(std::sqrt(1 + 1.54 * decay)); }
+constexpr int kMaxStages = 120;
+constexpr double kStagesSquared = 1.54;  // per unit of what the fastest vibration decays by
+
+int stages_for(double decay) { return 2 + int(std::sqrt(1 + kStagesSquared * decay)); }
 
 }  // namespace
 
@@ -43,7 +47,8 @@ DampingShares damping_shares(const Body& body, double frequency_squared) {
 SplitDamping::SplitDamping(SoftBody& body, double beta, double frequency_squared)
     : body_(body), beta_(beta), rate_(kMargin * beta * frequency_squared) {
   if (beta_ == 0) return;
-  longest_ = kPeriodShare / slowest_frequency(body.material, length_of(body));
+  affordable_ = (kMaxStages - 2) * (kMaxStages - 2) / kStagesSquared / rate_;
+  longest_ = std::min(kPeriodShare / slowest_frequency(body.material, length_of(body)), affordable_);
   inverse_masses_.resize(3 * body.masses.size());
   for (Eigen::Index node = 0; node < body.masses.size(); ++node) {
     inverse_masses_.segment<3>(3 * node).setConstant(1 / body.masses[node]);
@@ -68,6 +73,7 @@ void SplitDamping::find_change(const Eigen::VectorXd& u, Eigen::VectorXd& change
 
 void SplitDamping::settle() {
   if (due_ == 0) return;
+  due_ = std::min(due_, affordable_);
   const int stages = stages_for(due_ * rate_);
   const double w = 1 + kChebyshevDamping / (stages * stages);
   const Chebyshev last(stages, w);

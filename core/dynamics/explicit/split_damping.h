@@ -32,7 +32,8 @@ class SplitDamping {
   /// moves little in that time.
   [[nodiscard]] bool add(double dt);
 
-  /// Applies the damping that is still due.
+  /// Applies the damping that is still due. If a single step is worth more than a hundred stages, the rest of it is
+  /// lost: steps that long are not stable.
   void settle();
 
  private:
@@ -42,6 +43,7 @@ class SplitDamping {
   SoftBody& body_;
   double beta_;
   double rate_;                     // 1/s, at most, at which it damps
+  double affordable_ = 0;           // s, that can be applied at once
   double longest_ = 0;              // s, between two applications
   Eigen::VectorXd inverse_masses_;  // 1/kg, per unknown; 0 if pinned
   double due_ = 0;                  // s
