@@ -166,14 +166,15 @@ void FeaturePairs::measure_gap(AwakePair& pair) {
   if (pair.gap < kTouching * brick_) pair.normal = normal_of_touching(pair);
 }
 
-void FeaturePairs::track(AwakePair& pair) {
-  const bool is_inside = pair.gap < 0;
-  const bool was_support = pair.may_support;
-  measure_gap(pair);
-  pair.may_support = pair.pair.count == 1 || !is_at_end(pair);
-  if (pair.pair.count == 1) orient(pair, is_inside);
-  pair.may_support = pair.may_support && was_support;
-  pair.is_loaded = !pair.impulse->isZero(0);
+void FeaturePairs::track(std::span<AwakePair> awake) {
+  for (AwakePair& pair : awake) {
+    const bool is_inside = pair.gap < 0;
+    measure_gap(pair);
+    pair.may_support = true;
+    if (pair.pair.count == 1) orient(pair, is_inside);
+    pair.is_loaded = !pair.impulse->isZero(0);
+  }
+  choose_supports(awake);
 }
 
 Vec3 FeaturePairs::facing_of(const AwakePair& pair) {
@@ -337,7 +338,7 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
   }
 }
 
-void FeaturePairs::choose_supports(std::vector<AwakePair>& pairs) {
+void FeaturePairs::choose_supports(std::span<AwakePair> pairs) {
   ++step_;
   const auto nearest_of = [&](const AwakePair& pair) -> Nearest& {
     return nearest_[pair.pair.first][pair.pair.corners[0]];

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/contact/pairs/awake_pair.h"
@@ -26,9 +27,8 @@ class FeaturePairs : private NearLists {
   void wake();
   /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
   void measure(std::vector<AwakePair>& awake);
-  /// Updates the geometry of a pair that was measured since the last call of wake(). Which of several pairs supports a
-  /// point is not decided anew.
-  void track(AwakePair& pair);
+  /// Updates the geometry of all pairs that were measured since the last call of wake(), except for their reach.
+  void track(std::span<AwakePair> awake);
 
  private:
   struct Sleeper {
@@ -121,7 +121,7 @@ class FeaturePairs : private NearLists {
   /// node.
   [[nodiscard]] bool may_skip(const AwakePair& pair, const Woken& woken);
   /// Points at the edge of a triangle, or inside, are supported by the nearest triangle only.
-  void choose_supports(std::vector<AwakePair>& pairs);
+  void choose_supports(std::span<AwakePair> pairs);
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;

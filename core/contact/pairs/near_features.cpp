@@ -12,11 +12,12 @@
 namespace sprung {
 namespace {
 
-constexpr double kMaxStepsAhead = 16;  // that are predicted ...
+constexpr double kMaxStepsAhead = 12;  // that are predicted ...
 constexpr double kWayAhead = 0.02;     // ... or fewer, in which nothing moves by more than so many bricks ...
 constexpr double kMinStepsAhead = 2;   // ... this one and the next, whose contacts this prediction gives
 constexpr double kSlack = 0.004;       // bricks that nodes may deviate from where their velocities take them ...
-constexpr double kMoreSlack = 4;       // times as far, each time that a step is checked again
+constexpr double kMoreSlack = 4;       // times as far, each time that a step is checked again ...
+constexpr int kMostSlack = 3;          // ... so often: with more, all of a body would be near itself
 
 /// The bricks of bodies `a` and `b` that are glued together, each pair once.
 FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
@@ -140,7 +141,7 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
 
 bool NearFeatures::recheck(const World& world, double dt) {
   if (deviation(dt) <= slack_) return false;
-  predict(world, dt, kSlack * std::pow(kMoreSlack, rechecks_++));
+  predict(world, dt, kSlack * std::pow(kMoreSlack, std::min(rechecks_++, kMostSlack)));
   measure(world);
   return true;
 }
@@ -195,12 +196,11 @@ void NearFeatures::measure_shapes(const World& world, std::vector<AwakePair>& aw
 void NearFeatures::measure(const World& world) {
   each_tree([](SurfaceTree& tree) { tree.refresh(); });
   awake_.clear();
-  owners_.clear();
+  last_awake_.clear();
   measure_shapes(world, awake_);
-  const std::size_t first = awake_.size();
   for (const auto& pairs : pairs_) {
     pairs->measure(awake_);
-    owners_.resize(awake_.size() - first, pairs.get());
+    last_awake_.push_back(awake_.size());
   }
   are_entangled_.assign(awake_.size(), std::nullopt);
 }
@@ -210,7 +210,11 @@ void NearFeatures::track(const World& world) {
   of_shapes_.clear();
   measure_shapes(world, of_shapes_);
   std::copy(of_shapes_.begin(), of_shapes_.end(), awake_.begin());
-  for (std::size_t row = 0; row < owners_.size(); ++row) owners_[row]->track(awake_[of_shapes_.size() + row]);
+  std::size_t first = of_shapes_.size();
+  for (std::size_t row = 0; row < pairs_.size(); ++row) {
+    pairs_[row]->track(std::span(awake_).subspan(first, last_awake_[row] - first));
+    first = last_awake_[row];
+  }
   are_entangled_.assign(awake_.size(), std::nullopt);
 }
 

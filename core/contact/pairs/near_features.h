@@ -111,7 +111,7 @@ class NearFeatures {
   std::vector<std::vector<Against>> against_;  // by body
   std::vector<Pose> poses_;                    // of all obstacles, in this step
   std::vector<AwakePair> awake_;               // those of obstacles without edges first
-  std::vector<FeaturePairs*> owners_;          // of the others
+  std::vector<std::size_t> last_awake_;        // by row of pairs_: one past its last
   std::vector<AwakePair> of_shapes_;
   std::vector<std::optional<bool>> are_entangled_;  // of these, as far as asked
   /// At the last prediction: how far it reaches, and the nodes.
