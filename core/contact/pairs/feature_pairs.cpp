@@ -145,36 +145,19 @@ double FeaturePairs::reach_of(const FeaturePair& pair) {
 }
 
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
+  std::array<Vec3, 4> x;
+  for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).position_of(pair.corners[i]);
+  const FeatureDistance found = feature_distance(pair.count, x);
+  const double gap = found.apart.norm();
   AwakePair measured{.pair = pair,
                      .bodies = bodies_,
-                     .normal = Vec3::Zero(),
-                     .gap = 0,
-                     .weights = Eigen::Vector4d::Zero(),
+                     .normal = found.apart / std::max(gap, 1e-300),
+                     .gap = gap,
+                     .weights = found.weights,
                      .reach = reach_of(pair),
                      .friction = friction_};
-  measure_gap(measured);
+  if (gap < kTouching * brick_) measured.normal = normal_of_touching(measured);
   return measured;
-}
-
-void FeaturePairs::measure_gap(AwakePair& pair) {
-  std::array<Vec3, 4> x;
-  for (int i = 0; i < 4; ++i) x[i] = tree(pair.pair.side(i)).position_of(pair.pair.corners[i]);
-  const FeatureDistance found = feature_distance(pair.pair.count, x);
-  pair.gap = found.apart.norm();
-  pair.normal = found.apart / std::max(pair.gap, 1e-300);
-  pair.weights = found.weights;
-  if (pair.gap < kTouching * brick_) pair.normal = normal_of_touching(pair);
-}
-
-void FeaturePairs::track(std::span<AwakePair> awake) {
-  for (AwakePair& pair : awake) {
-    const bool is_inside = pair.gap < 0;
-    measure_gap(pair);
-    pair.may_support = true;
-    if (pair.pair.count == 1) orient(pair, is_inside);
-    pair.is_loaded = !pair.impulse->isZero(0);
-  }
-  choose_supports(awake);
 }
 
 Vec3 FeaturePairs::facing_of(const AwakePair& pair) {
@@ -338,7 +321,7 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
   }
 }
 
-void FeaturePairs::choose_supports(std::span<AwakePair> pairs) {
+void FeaturePairs::choose_supports(std::vector<AwakePair>& pairs) {
   ++step_;
   const auto nearest_of = [&](const AwakePair& pair) -> Nearest& {
     return nearest_[pair.pair.first][pair.pair.corners[0]];

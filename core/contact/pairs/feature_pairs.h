@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <span>
 #include <vector>
 
 #include "core/contact/pairs/awake_pair.h"
@@ -27,8 +26,6 @@ class FeaturePairs : private NearLists {
   void wake();
   /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
   void measure(std::vector<AwakePair>& awake);
-  /// Updates the geometry of all pairs that were measured since the last call of wake(), except for their reach.
-  void track(std::span<AwakePair> awake);
 
  private:
   struct Sleeper {
@@ -82,8 +79,6 @@ class FeaturePairs : private NearLists {
   /// The gap (m) at which contact keeps two features: so that what is drawn at them keeps off too.
   [[nodiscard]] double reach_of(const FeaturePair& pair);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
-  /// Finds a pair's gap, normal and weights.
-  void measure_gap(AwakePair& pair);
   /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
   /// of its last if it is 2.
   [[nodiscard]] bool pierces(const AwakePair& edges, int edge);
@@ -121,7 +116,7 @@ class FeaturePairs : private NearLists {
   /// node.
   [[nodiscard]] bool may_skip(const AwakePair& pair, const Woken& woken);
   /// Points at the edge of a triangle, or inside, are supported by the nearest triangle only.
-  void choose_supports(std::span<AwakePair> pairs);
+  void choose_supports(std::vector<AwakePair>& pairs);
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;

@@ -12,12 +12,12 @@
 namespace sprung {
 namespace {
 
-constexpr double kMaxStepsAhead = 12;  // that are predicted ...
-constexpr double kWayAhead = 0.02;     // ... or fewer, in which nothing moves by more than so many bricks ...
-constexpr double kMinStepsAhead = 2;   // ... this one and the next, whose contacts this prediction gives
-constexpr double kSlack = 0.004;       // bricks that nodes may deviate from where their velocities take them ...
-constexpr double kMoreSlack = 4;       // times as far, each time that a step is checked again ...
-constexpr int kMostSlack = 3;          // ... so often: with more, all of a body would be near itself
+constexpr double kMaxStepsAhead = 8;  // that are predicted ...
+constexpr double kWayAhead = 0.02;    // ... or fewer, in which nothing moves by more than so many bricks ...
+constexpr double kMinStepsAhead = 2;  // ... this one and the next, whose contacts this prediction gives
+constexpr double kSlack = 0.004;      // bricks that nodes may deviate from where their velocities take them ...
+constexpr double kMoreSlack = 4;      // times as far, each time that a step is checked again ...
+constexpr int kMaxGrowths = 3;        // ... so often: with more, all of a body would be near itself
 
 /// The bricks of bodies `a` and `b` that are glued together, each pair once.
 FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
@@ -134,14 +134,13 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
   for (std::size_t i = 0; i < surfaces_.obstacles.size(); ++i) {
     move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *surfaces_.obstacles[i]);
   }
-  if (!seen_.empty()) return track(world);
-  predict(world, dt, kSlack);
+  if (seen_.empty()) predict(world, dt, kSlack);
   measure(world);
 }
 
 bool NearFeatures::recheck(const World& world, double dt) {
   if (deviation(dt) <= slack_) return false;
-  predict(world, dt, kSlack * std::pow(kMoreSlack, std::min(rechecks_++, kMostSlack)));
+  predict(world, dt, kSlack * std::pow(kMoreSlack, std::min(rechecks_++, kMaxGrowths)));
   measure(world);
   return true;
 }
@@ -185,36 +184,15 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
   });
 }
 
-void NearFeatures::measure_shapes(const World& world, std::vector<AwakePair>& awake) {
-  for (std::vector<Against>& of_body : against_) {
-    for (Against& against : of_body) {
-      against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake);
-    }
-  }
-}
-
 void NearFeatures::measure(const World& world) {
   each_tree([](SurfaceTree& tree) { tree.refresh(); });
   awake_.clear();
-  last_awake_.clear();
-  measure_shapes(world, awake_);
-  for (const auto& pairs : pairs_) {
-    pairs->measure(awake_);
-    last_awake_.push_back(awake_.size());
+  for (std::vector<Against>& of_body : against_) {
+    for (Against& against : of_body) {
+      against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);
+    }
   }
-  are_entangled_.assign(awake_.size(), std::nullopt);
-}
-
-void NearFeatures::track(const World& world) {
-  each_tree([](SurfaceTree& tree) { tree.refresh(); });
-  of_shapes_.clear();
-  measure_shapes(world, of_shapes_);
-  std::copy(of_shapes_.begin(), of_shapes_.end(), awake_.begin());
-  std::size_t first = of_shapes_.size();
-  for (std::size_t row = 0; row < pairs_.size(); ++row) {
-    pairs_[row]->track(std::span(awake_).subspan(first, last_awake_[row] - first));
-    first = last_awake_[row];
-  }
+  for (const auto& pairs : pairs_) pairs->measure(awake_);
   are_entangled_.assign(awake_.size(), std::nullopt);
 }
 

@@ -28,8 +28,8 @@ class NearFeatures {
   /// Whether bodies and obstacles still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces(const World& world) const;
 
-  /// Finds the current geometry of the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`:
-  /// since the obstacles had the world's poses, s.
+  /// Measures the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`: since the obstacles had
+  /// the world's poses, s.
   void begin_step(const World& world, double elapsed, double dt);
   /// Once velocities are those of the step: finds and measures all pairs that may meet, if something deviates from the
   /// prediction. Returns whether it did.
@@ -96,9 +96,6 @@ class NearFeatures {
   /// `slack`: how far nodes may deviate from the prediction, bricks.
   void predict(const World& world, double dt, double slack);
   void measure(const World& world);
-  void measure_shapes(const World& world, std::vector<AwakePair>& awake);
-  /// Updates the geometry of what was measured after the last prediction.
-  void track(const World& world);
 
   Group group_;
   std::vector<Shape> shapes_;               // of the obstacles
@@ -110,9 +107,7 @@ class NearFeatures {
   std::vector<std::vector<std::size_t>> rounds_;
   std::vector<std::vector<Against>> against_;  // by body
   std::vector<Pose> poses_;                    // of all obstacles, in this step
-  std::vector<AwakePair> awake_;               // those of obstacles without edges first
-  std::vector<std::size_t> last_awake_;        // by row of pairs_: one past its last
-  std::vector<AwakePair> of_shapes_;
+  std::vector<AwakePair> awake_;
   std::vector<std::optional<bool>> are_entangled_;  // of these, as far as asked
   /// At the last prediction: how far it reaches, and the nodes.
   struct Seen {
