@@ -242,6 +242,7 @@ void advance(World& world, Scheme scheme, double dt, long steps, double time) {
   ContactStates states;
   states.begin_frame(world, bodies);
   std::vector<GroupSteps> groups;
+  groups.reserve(bodies.size());
   for (const std::vector<std::size_t>& rows : bodies) {
     groups.push_back({.bodies = rows, .steps = {.count = steps, .dt = dt}});
   }
