@@ -16,7 +16,8 @@ constexpr double kMaxStepsAhead = 8;  // that are predicted ...
 constexpr double kWayAhead = 0.02;    // ... or fewer, in which nothing moves by more than so many bricks ...
 constexpr double kMinStepsAhead = 2;  // ... this one and the next, whose contacts this prediction gives
 constexpr double kSlack = 0.004;      // bricks that nodes may deviate from where their velocities take them ...
-constexpr double kMoreSlack = 4;      // times as far, each time that a step is checked again
+constexpr double kMoreSlack = 4;      // times as far, each time that a step is checked again ...
+constexpr int kMaxGrowths = 3;        // ... so often: with more, all of a body would be near itself
 
 /// The bricks of bodies `a` and `b` that are glued together, each pair once.
 FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
@@ -45,12 +46,15 @@ NearFeatures::NearFeatures(const Group& group, const World& world, const std::ve
   if (surfaces_.trees.empty()) make_surfaces(world, !smooth.empty());
   const Trees& trees = surfaces_.trees;
   const Trees& outlines = surfaces_.outlines;
+  std::vector<std::array<std::size_t, 2>> rows;
   const auto add = [&](std::size_t a, std::size_t b, double friction) {
+    rows.push_back({a, b});
     pairs_.push_back(
         std::make_unique<FeaturePairs>(*trees[a], *trees[b], std::array{a, b}, friction, joints_between(glue, a, b)));
   };
   for (std::size_t a = 0; a < group_.size(); ++a) {
-    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*outlines[a], a)});
+    std::vector<Against>& against = against_.emplace_back();
+    for (const std::size_t row : smooth) against.push_back({.obstacle = row, .pairs = ShapePairs(*outlines[a], a)});
     if (group_[a]->contact.with_itself) add(a, a, group_[a]->contact.friction);
     for (std::size_t b = a + 1; b < group_.size() && world.bodies_collide; ++b) {
       add(a, b, std::sqrt(group_[a]->contact.friction * group_[b]->contact.friction));
@@ -58,6 +62,22 @@ NearFeatures::NearFeatures(const Group& group, const World& world, const std::ve
     for (std::size_t i = 0; i < obstacle_rows_.size(); ++i) {
       add(a, group_.size() + i, world.obstacles[obstacle_rows_[i]].friction);
     }
+  }
+  arrange_rounds(rows);
+}
+
+void NearFeatures::arrange_rounds(const std::vector<std::array<std::size_t, 2>>& surfaces) {
+  std::vector<std::vector<char>> is_taken;  // by round and surface
+  for (std::size_t row = 0; row < surfaces.size(); ++row) {
+    const auto& [a, b] = surfaces[row];
+    std::size_t round = 0;
+    while (round < rounds_.size() && (is_taken[round][a] || is_taken[round][b])) ++round;
+    if (round == rounds_.size()) {
+      rounds_.emplace_back();
+      is_taken.emplace_back(surfaces_.trees.size(), false);
+    }
+    rounds_[round].push_back(row);
+    is_taken[round][a] = is_taken[round][b] = true;
   }
 }
 
@@ -120,7 +140,7 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
 
 bool NearFeatures::recheck(const World& world, double dt) {
   if (deviation(dt) <= slack_) return false;
-  predict(world, dt, kSlack * std::pow(kMoreSlack, rechecks_++));
+  predict(world, dt, kSlack * std::pow(kMoreSlack, std::min(rechecks_++, kMaxGrowths)));
   measure(world);
   return true;
 }
@@ -154,17 +174,23 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
     surfaces_.trees[row]->follow(horizon_, slack_ * brick_);
     if (row < surfaces_.outlines.size()) surfaces_.outlines[row]->follow(horizon_, slack_ * brick_);
   });
-  for (const auto& pairs : pairs_) pairs->wake();
-  for (Against& against : against_) {
-    against.pairs.wake(world.obstacles[against.obstacle], poses_[against.obstacle], horizon_);
+  for (const std::vector<std::size_t>& round : rounds_) {
+    tbb::parallel_for(std::size_t{0}, round.size(), [&](std::size_t i) { pairs_[round[i]]->wake(); });
   }
+  tbb::parallel_for(std::size_t{0}, against_.size(), [&](std::size_t row) {
+    for (Against& against : against_[row]) {
+      against.pairs.wake(world.obstacles[against.obstacle], poses_[against.obstacle], horizon_);
+    }
+  });
 }
 
 void NearFeatures::measure(const World& world) {
   each_tree([](SurfaceTree& tree) { tree.refresh(); });
   awake_.clear();
-  for (Against& against : against_) {
-    against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);
+  for (std::vector<Against>& of_body : against_) {
+    for (Against& against : of_body) {
+      against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);
+    }
   }
   for (const auto& pairs : pairs_) pairs->measure(awake_);
   are_entangled_.assign(awake_.size(), std::nullopt);

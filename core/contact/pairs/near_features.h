@@ -89,6 +89,8 @@ class NearFeatures {
   };
 
   void make_surfaces(const World& world, bool with_outlines);
+  /// `surfaces`: by row of pairs_.
+  void arrange_rounds(const std::vector<std::array<std::size_t, 2>>& surfaces);
   /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
   [[nodiscard]] double deviation(double dt) const;
   /// `slack`: how far nodes may deviate from the prediction, bricks.
@@ -101,8 +103,10 @@ class NearFeatures {
   double brick_;                            // m
   Surfaces surfaces_;
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
-  std::vector<Against> against_;
-  std::vector<Pose> poses_;  // of all obstacles, in this step
+  /// Rows of these: no surface occurs twice in a round, whose pairs can be found at once.
+  std::vector<std::vector<std::size_t>> rounds_;
+  std::vector<std::vector<Against>> against_;  // by body
+  std::vector<Pose> poses_;                    // of all obstacles, in this step
   std::vector<AwakePair> awake_;
   std::vector<std::optional<bool>> are_entangled_;  // of these, as far as asked
   /// At the last prediction: how far it reaches, and the nodes.
