@@ -44,8 +44,7 @@ void put_at_rest(Body& body) {
   body.rest_positions = body.grid.rest_positions();
   body.positions = body.rest_positions;
   body.velocities = Points::Zero(body.grid.node_count(), 3);
-  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
-  body.damping = rayleigh_from_damping(body.material, extent.maxCoeff());
+  body.damping = rayleigh_from_damping(body.material, length_of(body));
 }
 
 double volume_ratio(const Body& body, std::size_t brick) {
@@ -54,9 +53,16 @@ double volume_ratio(const Body& body, std::size_t brick) {
 
 }  // namespace
 
+double slowest_frequency(const Material& material, double length) {
+  return std::sqrt(material.shear_modulus() / material.density) / (2 * length);
+}
+
 Rayleigh rayleigh_from_damping(const Material& material, double length) {
-  const double frequency = std::sqrt(material.shear_modulus() / material.density) / (2 * length);
-  return {.alpha = 0, .beta = 2 * material.damping / (2 * std::numbers::pi * frequency)};
+  return {.alpha = 0, .beta = 2 * material.damping / (2 * std::numbers::pi * slowest_frequency(material, length))};
+}
+
+double length_of(const Body& body) {
+  return (body.rest_positions.colwise().maxCoeff() - body.rest_positions.colwise().minCoeff()).maxCoeff();
 }
 
 namespace {

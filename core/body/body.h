@@ -21,8 +21,10 @@ struct Rayleigh {
   double beta = 0;   // s, along the springs; does not see rigid motion
 };
 
-/// The beta that damps the slowest vibration of a body of that length (estimated as a shear wave crossing it there and
-/// back, f = sqrt(G/rho) / (2 length)) at material.damping of critical.
+/// 1/s; an estimate for the slowest vibration of a body of that length: a shear wave crosses it there and back.
+[[nodiscard]] double slowest_frequency(const Material& material, double length);
+
+/// The beta that damps it at material.damping of critical.
 [[nodiscard]] Rayleigh rayleigh_from_damping(const Material& material, double length);
 
 /// How the solid is distributed in a brick, within the bounds of its law, and how it bends accordingly; full bricks
@@ -57,6 +59,9 @@ inline constexpr double kStiffnessFloor = 0.01;
 /// A body at rest at the position of its grid. Masses are lumped, fill rho h^3 / 8 per corner (in solid bricks more
 /// where their solid lies), and scaled so that their sum is density * grid.volume().
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
+
+/// m, the longest side of its box at rest.
+[[nodiscard]] double length_of(const Body& body);
 
 /// Rebuilds the body's tiles; required after a change of its stiffness_scale or its solids. make_body() does this too.
 void build_tiles(Body& body);

@@ -23,14 +23,11 @@ constexpr long kFewestSteps = 2;  // implicit steps per frame
 constexpr long kMaxSteps = 16;
 constexpr double kWorthwhile = 2;  // times faster, to accept the numerical damping of implicit steps
 
-/// s; the slowest vibration of all bodies (estimated as in rayleigh_from_damping()).
+/// s; of the slowest vibrations of all bodies.
 double shortest_period(const World& world) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const SoftBody& body : world.bodies) {
-    const Points& rest = body.rest_positions;
-    const double length = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
-    const Material& material = body.material;
-    shortest = std::min(shortest, 2 * length / std::sqrt(material.shear_modulus() / material.density));
+    shortest = std::min(shortest, 1 / slowest_frequency(body.material, length_of(body)));
   }
   return shortest;
 }

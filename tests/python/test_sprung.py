@@ -205,7 +205,7 @@ class Motion(unittest.TestCase):
             (body,) = world.add(TORUS, jelly, size=0.1, bricks=6, position=(0, 0.001, 0))
             for row in range(additions):
                 world.add(TORUS, jelly, size=0.1, bricks=6, position=(1 + row, 0.001, 0))
-                world.advance(0 if row == 0 else 1e-9)
+                world.advance(0 if row == 0 else 1e-12)
             world.step(1e-4, 500)
             ends.append(body.positions.copy())
         np.testing.assert_allclose(ends[0], ends[1], atol=1e-6)

@@ -15,7 +15,7 @@
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_states.h"
-#include "core/dynamics/explicit/implicit_damping.h"
+#include "core/dynamics/explicit/split_damping.h"
 #include "core/dynamics/linear/eigenvalue_bound.h"
 #include "core/error.h"
 #include "core/world/load_forces.h"
@@ -50,7 +50,7 @@ double largest_frequency_squared(const Body& body) {
 /// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
 double stable_step(const Body& body, double safety) {
   const double squared = largest_frequency_squared(body);
-  const Rayleigh ours = damping_shares(body, squared).explicit_part;
+  const Rayleigh ours = damping_shares(body, squared).of_steps;
   const double damping = ours.alpha + ours.beta * squared;
   return safety * 4 / (damping + std::sqrt(damping * damping + 4 * squared));
 }
@@ -70,17 +70,18 @@ class BodyStepper {
       : body_(body),
         world_(world),
         inverse_masses_(body.masses.cwiseInverse()),
-        damping_(damping_shares(body, largest_frequency_squared(body))),
-        implicit_damping_(body, damping_.implicit_beta),
+        frequency_squared_(largest_frequency_squared(body)),
+        damping_(damping_shares(body, frequency_squared_)),
+        split_damping_(body, damping_.split_beta, frequency_squared_),
         loads_(body, world) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); pinned nodes keep their velocity. Damping sees the velocities
   /// that the last step left, not what loads, gravity or springs add here: at rest these balance each other or contact.
   void kick(double dt) {
     Body& body = body_;
-    if (implicit_damping_.add(dt)) {
+    if (split_damping_.add(dt)) {
       settle();
-      implicit_damping_.settle();
+      split_damping_.settle();
     }
     const Points* loads = nullptr;
     if (loads_.any()) {
@@ -95,7 +96,7 @@ class BodyStepper {
       body.velocities.rowwise() += dt * world_.gravity.transpose();
     } else {
       workspace_.springs.move(
-          body, {.drift = pending_drift_, .kick = dt, .damping = damping_.explicit_part, .gravity = world_.gravity},
+          body, {.drift = pending_drift_, .kick = dt, .damping = damping_.of_steps, .gravity = world_.gravity},
           inverse_masses_);
       pending_drift_ = 0;
     }
@@ -113,7 +114,7 @@ class BodyStepper {
   /// Called after the last of a number of steps.
   void finish() {
     settle();
-    implicit_damping_.settle();
+    split_damping_.settle();
   }
 
   /// Applies the deferred drift.
@@ -126,8 +127,9 @@ class BodyStepper {
   SoftBody& body_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
+  double frequency_squared_;  // 1/s^2, of the fastest vibration
   DampingShares damping_;
-  ImplicitDamping implicit_damping_;
+  SplitDamping split_damping_;
   LoadForces loads_;
   ForceWorkspace workspace_;
   Points forces_;

@@ -1,10 +1,11 @@
-#include "core/dynamics/explicit/implicit_damping.h"
+#include "core/dynamics/explicit/split_damping.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "core/body/forces.h"
 #include "core/dynamics/explicit/integrator.h"
@@ -38,7 +39,7 @@ void twist(Body& body) {
 
 /// A vibration dies away as in implicit steps, which have the whole damping at once; and steps are hardly shorter than
 /// without damping.
-TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
+TEST(SplitDamping, VibrationDiesAwayAsInImplicitMotion) {
   for (const double ratio : {0.05, 0.2}) {
     World world = damped_bar(ratio);
     World undamped = damped_bar(0);
@@ -53,18 +54,18 @@ TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
     World fine = world;
     advance(world, Scheme::kVerlet, time / double(steps), steps, 0);
     advance(fine, Scheme::kVerlet, time / double(3 * steps), 3 * steps, 0);
-    ImplicitMotion(implicit, {.scheme = ImplicitScheme::kBdf2}).advance(time / 200, 200, 0);
+    ImplicitMotion(implicit, {.scheme = ImplicitScheme::kBdf2}).advance(time / 400, 400, 0);
     const auto left = [&](const World& one) {
       return (kinetic_energy(one.bodies[0]) + elastic_energy(one.bodies[0])) / before;
     };
     EXPECT_LT(left(implicit), 0.8);
-    EXPECT_NEAR(left(world), left(implicit), 0.2 * left(implicit));
-    EXPECT_LT(std::abs(left(fine) - left(implicit)), 0.5 * std::abs(left(world) - left(implicit)));
+    EXPECT_NEAR(left(world), left(implicit), 0.12 * left(implicit));
+    EXPECT_NEAR(left(fine), left(implicit), 0.12 * left(implicit));
   }
 }
 
 /// A rigid motion is not damped, and momenta are conserved however early the iterations stop.
-TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
+TEST(SplitDamping, FreeBodyKeepsItsMomenta) {
   World world = damped_bar(0.3);
   Body& body = world.bodies[0];
   for (int node = 0; node < body.node_count(); ++node) {
@@ -79,8 +80,32 @@ TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
   EXPECT_LT((angular_momentum(body) - angular).norm(), 1e-9 * angular.norm());
 }
 
+/// Velocities that vary from node to node lose energy, whatever the time that is due; also in a body that was
+/// compressed, or drawn, after its fastest vibration was found.
+TEST(SplitDamping, NeverAddsEnergy) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const double stretch : {1.0, 0.8, 3.0}) {
+    for (const double time : {1e-5, 1e-4, 1e-3, 1e-2, 10.0}) {
+      World world = damped_bar(0.3);
+      SoftBody& body = world.bodies[0];
+      const double squared = largest_frequency_squared(body);
+      body.positions.col(0) *= stretch;
+      for (double& velocity : body.velocities.reshaped()) velocity = uniform(random);
+      SplitDamping damping(body, body.damping.beta, squared);
+      double before = kinetic_energy(body);
+      for (int i = 0; i < 5; ++i) {
+        static_cast<void>(damping.add(time));
+        damping.settle();
+        EXPECT_LT(kinetic_energy(body), before);
+        before = kinetic_energy(body);
+      }
+    }
+  }
+}
+
 /// Pinned nodes keep their velocity; the rest comes to follow them.
-TEST(ImplicitDamping, HeldNodesLead) {
+TEST(SplitDamping, HeldNodesLead) {
   World world = damped_bar(5);
   SoftBody& body = world.bodies[0];
   for (int node = 0; node < body.node_count(); ++node) {
@@ -88,7 +113,7 @@ TEST(ImplicitDamping, HeldNodesLead) {
     body.pinned.push_back({.node = node, .velocity = {0.01, 0, 0}});
     body.velocities(node, 0) = 0.01;
   }
-  ImplicitDamping damping(body, body.damping.beta);
+  SplitDamping damping(body, body.damping.beta, largest_frequency_squared(body));
   const double before = body.velocities.col(0).sum();
   EXPECT_FALSE(damping.add(1e-3));
   damping.settle();
