@@ -1,6 +1,6 @@
 #include "render/exposures.h"
 
-#include <string>
+#include <fmt/format.h>
 
 #include "render/shaders.h"
 
@@ -11,9 +11,9 @@ constexpr TextureFormat kLight{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_C
 constexpr TextureFormat kPicture{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
 
 GlProgram load(const GlFunctions& gl, const char* fragment, bool transparent) {
-  return load_program(gl, "screen.vert", fragment,
-                      std::string("#define RINGS 6\n#define DIRECTIONS 20\n") +
-                          (transparent ? "#define TRANSPARENT 1\n" : "#define TRANSPARENT 0\n"));
+  return load_program(
+      gl, "screen.vert", fragment,
+      fmt::format("#define RINGS 6\n#define DIRECTIONS 20\n#define TRANSPARENT {}\n", int(transparent)));
 }
 
 }  // namespace
