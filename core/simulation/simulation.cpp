@@ -65,7 +65,7 @@ Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
   }
   if (!is_motion(scene)) return simulation;
   for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, simulation);
-  check_start(scene, simulation);
+  check_start(scene, simulation, observer);
   return simulation;
 }
 
@@ -227,7 +227,8 @@ Simulation prepare_simulation(const Scene& scene, const Observer& observer) {
 
 namespace {
 
-constexpr double kNear = 0.5;  // of the smaller bricks
+constexpr double kNear = 0.5;       // of the smaller bricks
+constexpr double kTouching = 1e-3;  // likewise: bodies that overlap no more only touch
 
 std::vector<std::size_t> soft_bodies_of(const Simulation& simulation, int body) {
   std::vector<std::size_t> bodies;
@@ -286,12 +287,13 @@ void check_obstacle(const Scene& scene, const Simulation& simulation, std::size_
                   index + 1, deep, *ground, allowance(body), y, std::abs(y + depth) < 1e-9 * depth ? 0 : y + depth));
 }
 
-void check_pair(const Simulation& simulation, std::size_t a, std::size_t b) {
+/// Returns how deep (m) body `a` starts inside body `b`.
+double check_pair(const Simulation& simulation, std::size_t a, std::size_t b) {
   const SoftBody& one = simulation.world.bodies[a];
   const SoftBody& other = simulation.world.bodies[b];
   const double depth = penetration_depth(other, one);
   const double allowed = std::min(one.grid.brick_size, other.grid.brick_size);
-  if (depth <= allowed) return;
+  if (depth <= allowed) return depth;
   throw Error(ErrorKind::kBadInput,
               fmt::format("body {} starts {} inside body {}; bodies may overlap by one brick ({}) at most: move them "
                           "apart, or let bodies not touch each other ([contact] bodies = false)",
@@ -299,9 +301,30 @@ void check_pair(const Simulation& simulation, std::size_t a, std::size_t b) {
                           simulation.origins[b].body + 1, readable(allowed, Dimension::kLength)));
 }
 
+/// Two bodies that start inside each other.
+struct Overlap {
+  int a;
+  int b;
+  double depth;  // m
+};
+
+void tell(const std::vector<Overlap>& overlaps, const Simulation& simulation, const Observer& observer) {
+  if (overlaps.empty()) return;
+  const Overlap& deepest = *std::max_element(overlaps.begin(), overlaps.end(),
+                                             [](const Overlap& a, const Overlap& b) { return a.depth < b.depth; });
+  const std::string others =
+      overlaps.size() > 1 ? fmt::format("; {} pairs of bodies do, these the deepest", overlaps.size()) : "";
+  const std::size_t one = simulation.origins[deepest.a].body + 1;
+  const std::size_t other = simulation.origins[deepest.b].body + 1;
+  const std::string which =
+      one == other ? fmt::format("two copies of body {}", one) : fmt::format("bodies {} and {}", one, other);
+  observer.note(fmt::format("{} start {} inside each other{}: contact moves them apart", which,
+                            readable(deepest.depth, Dimension::kLength), others));
+}
+
 }  // namespace
 
-void check_start(const Scene& scene, const Simulation& simulation) {
+void check_start(const Scene& scene, const Simulation& simulation, const Observer& observer) {
   const World& world = simulation.world;
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
@@ -309,10 +332,13 @@ void check_start(const Scene& scene, const Simulation& simulation) {
     for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
   }
   if (!world.bodies_collide) return;
+  std::vector<Overlap> overlaps;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    check_pair(simulation, a, b);
-    check_pair(simulation, b, a);
+    const double depth = std::max(check_pair(simulation, a, b), check_pair(simulation, b, a));
+    const double brick = std::min(world.bodies[a].grid.brick_size, world.bodies[b].grid.brick_size);
+    if (depth > kTouching * brick) overlaps.push_back({a, b, depth});
   }
+  tell(overlaps, simulation, observer);
 }
 
 }  // namespace sprung

@@ -49,7 +49,8 @@ struct Preparation {
 void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation);
 
 /// A small initial penetration is resolved gently; a deeper one would eject the body. Pinned nodes are ignored. Throws
-/// Error(kBadInput) naming the bodies or obstacles, the depth, and what to move.
-void check_start(const Scene& scene, const Simulation& simulation);
+/// Error(kBadInput) naming the bodies or obstacles, the depth, and what to move. A note tells of bodies that start
+/// inside each other.
+void check_start(const Scene& scene, const Simulation& simulation, const Observer& observer);
 
 }  // namespace sprung

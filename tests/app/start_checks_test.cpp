@@ -20,6 +20,26 @@ TEST(StartChecks, RefuseBodiesAtOnePlace) {
   EXPECT_NE(same.err.find("inside body 2; bodies may overlap by one brick"), std::string::npos) << same.err;
 }
 
+TEST(StartChecks, TellOfBodiesThatStartInEachOther) {
+  const std::string cube = "[[body]]\nmesh = \"cube.obj\"\nsize = 0.1\nbricks = 4\nposition = ";
+  const std::string three = cube + "[0, 1, 0]\n" + cube + "[0, 1.098, 0]\n" + cube + "[0, 1.197, 0]\n";
+  const auto simulate = [](const std::string& scene) {
+    const TempFolder folder;
+    static_cast<void>(folder.write("cube.obj", kCubeObj));
+    static_cast<void>(folder.write("scene.toml", scene));
+    return run_program(folder, "simulate scene.toml -o run.h5 --duration 1ms");
+  };
+  const ProgramRun overlapping = simulate(three);
+  EXPECT_EQ(overlapping.exit_code, 0);
+  EXPECT_NE((overlapping.out + overlapping.err)
+                .find("bodies 1 and 2 start 2 mm inside each other; 2 pairs of bodies do, these the deepest"),
+            std::string::npos)
+      << overlapping.out << overlapping.err;
+  const ProgramRun touching = simulate(cube + "[0, 1, 0]\n" + cube + "[0, 1.1, 0]\n");
+  EXPECT_EQ(touching.exit_code, 0);
+  EXPECT_EQ((touching.out + touching.err).find("inside each other"), std::string::npos) << touching.err;
+}
+
 TEST(StartChecks, RefuseAShellThickerThanItsBody) {
   const ProgramRun thick = inspect("--size 20cm --bricks 4 --thickness 21cm");
   EXPECT_EQ(thick.exit_code, 3);
