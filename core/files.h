@@ -71,14 +71,14 @@ class FileLock {
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
-  /// Whether `file` still is the locked one: not removed, not replaced.
+  /// Returns whether `file` still is the locked one: not removed, not replaced.
   [[nodiscard]] bool is_of(const std::filesystem::path& file) const;
 
  private:
   int descriptor_;
 };
 
-/// Whether any process holds a FileLock on the file.
+/// Returns whether any process holds a FileLock on the file.
 [[nodiscard]] bool is_being_written(const std::filesystem::path& file);
 
 /// Throws Error(kFailed): another run is writing that file.
@@ -94,7 +94,7 @@ struct NumberedName {
   [[nodiscard]] std::filesystem::path file(int number) const;
 };
 
-/// Whether the text contains a placeholder for a number.
+/// Returns whether the text contains a placeholder for a number.
 [[nodiscard]] bool has_number(std::string_view text);
 
 /// "f_{:04}.png" for "f_%04d.png" and "f_####.png", as other programs number their files; any other text as it is.

@@ -20,7 +20,7 @@ class Backdrop {
   [[nodiscard]] const GlTexture& picture() const { return picture_; }
 
  private:
-  /// What the picture depends on; rounded, so that it stays the same while the camera orbits.
+  /// The parameters that the picture depends on; rounded, so that it stays the same while the camera orbits.
   struct Sight {
     Eigen::Vector3f height;
     Eigen::Vector2f slopes;

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// Whether qualities other than kFinal support that many samples per pixel: 1, 4 and 16.
+/// Returns whether qualities other than kFinal support that many samples per pixel: 1, 4 and 16.
 [[nodiscard]] bool is_raster_samples(int samples);
 
 /// Throws Error(kFailed) if this program was built without what Quality::kFinal needs.
@@ -30,8 +30,8 @@ class Renderer {
   /// The mean light of some exposures; needs RenderOptions::exposes.
   [[nodiscard]] Image draw(const std::vector<Exposure>& exposures);
 
-  /// What a compositor needs in addition to the picture of `now`; `before` and `after`: one frame earlier and later.
-  /// With RenderOptions::exposes the beauty is of the exposures drawn last, which should be those of `now`.
+  /// The layers that a compositor needs in addition to the picture of `now`; `before` and `after`: one frame earlier
+  /// and later. With RenderOptions::exposes the beauty is of the exposures drawn last, which should be those of `now`.
   [[nodiscard]] Passes draw_passes(const Moment& now, const Moment& before, const Moment& after);
 
   /// The time of each pass over all pictures so far; empty unless measured.

@@ -25,12 +25,12 @@ class EnvironmentTexture {
   GlTexture reflections_;
 };
 
-/// What the pixels of a screen hold: colours; linear light; or, instead of red and green, the fraction of the key light
-/// that reaches what is seen and the fraction of the sky that is open above it.
+/// The contents of the pixels of a screen: colours; linear light; or, instead of red and green, the fraction of the key
+/// light that reaches what is seen and the fraction of the sky that is open above it.
 enum class ScreenOutput { kPicture, kLight, kShares };
 
-/// What rays gather for the vertices of skins: nothing; the surrounding light; that, and light through translucent
-/// bodies.
+/// The light that rays gather for the vertices of skins: none; the surrounding light; that, and light through
+/// translucent bodies.
 enum class Gathering { kNothing, kAround, kThrough };
 
 /// Samples along each side of a pixel.

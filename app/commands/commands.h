@@ -23,7 +23,7 @@ struct Invocation {
   const CLI::App* draws_records = nullptr;          // the command that takes its scenes from caches, without defaults
   int exit_code = 0;
 
-  /// Whether the command takes the default of that option from a cache, which records the value used.
+  /// Returns whether the command takes the default of that option from a cache, which records the value used.
   [[nodiscard]] bool is_recorded(const CLI::App* asked, const CLI::Option* option) const {
     return asked == draws_records &&
            std::find(scene_options.begin(), scene_options.end(), option) != scene_options.end();

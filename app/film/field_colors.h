@@ -31,7 +31,7 @@ using ColorRanges = std::vector<ColorRange>;
 [[nodiscard]] const ColorRange& range_in(const ColorRanges& ranges, std::size_t frame);
 /// Ranges that cover both; the last one of a shorter film applies to the frames after it.
 [[nodiscard]] ColorRanges merged(const ColorRanges& a, const ColorRanges& b);
-/// Whether each frame has its own range.
+/// Returns whether each frame has its own range.
 [[nodiscard]] bool has_range_per_frame(const SceneRender& render);
 
 /// Maps a field to colours.

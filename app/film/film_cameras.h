@@ -5,8 +5,8 @@
 
 namespace sprung {
 
-/// What must be visible to the cameras of a film: the bounds of the whole motion, and for each frame the extreme points
-/// in 26 directions and the ground below them, where shadows fall.
+/// The extent that the cameras of a film must show: the bounds of the whole motion, and for each frame the extreme
+/// points in 26 directions and the ground below them, where shadows fall.
 struct Reach {
   AlignedBox bounds;
   std::vector<Points> bodies;  // by frame

@@ -32,7 +32,7 @@ struct Output {
   Stream stream = Stream::kAny;  // of kStream
 
   [[nodiscard]] bool is_numbered() const { return file.empty() && kind != Kind::kStream; }
-  /// Whether all its pictures go to one file or stream, in order.
+  /// Returns whether all its pictures go to one file or stream, in order.
   [[nodiscard]] bool is_sequence() const { return kind == Kind::kFilm || kind == Kind::kStream; }
   /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;

@@ -40,7 +40,7 @@ class LoadPicture {
   void add(Skin skin, const Eigen::Vector3f& color, bool is_ghost);
   /// Spread over the parts of the skins that a face covers.
   [[nodiscard]] std::vector<Spot> spots_on(const PartFace& face) const;
-  /// Whether it is visible from far away in the direction `viewer` (unit).
+  /// Returns whether it is visible from far away in the direction `viewer` (unit).
   [[nodiscard]] bool is_seen(const Spot& spot, const Vec3& viewer) const;
   void choose_direction();
   /// A camera that sees everything, at any rotation about the vertical if it `turns`.

@@ -14,8 +14,8 @@ class SightLines {
   SightLines(const SightLines&) = delete;
   SightLines& operator=(const SightLines&) = delete;
 
-  /// Whether nothing lies between a point of them and infinity; `outward` and `viewer` (unit): the surface's normal
-  /// there and the direction to the viewer.
+  /// Returns whether nothing lies between a point of them and infinity; `outward` and `viewer` (unit): the surface's
+  /// normal there and the direction to the viewer.
   [[nodiscard]] bool is_open(const Vec3& position, const Vec3& outward, const Vec3& viewer) const;
 
  private:

@@ -15,7 +15,7 @@ namespace sprung {
 /// A body of kAutoMaterial.
 [[nodiscard]] SceneBody default_body();
 
-/// What an experiment varies; empty members stay as in the scene.
+/// The parameters that an experiment varies; empty members stay as in the scene.
 struct Experiment {
   std::string title;
   std::string about;            // sentences for the report

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// What happens to a mesh without a scene file.
+/// The motions of a mesh without a scene file.
 enum class Scenario {
   kDrop,     // falls upright from 0.08 of its size, or less
   kHang,     // held by its top 8 %, released under gravity

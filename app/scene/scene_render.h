@@ -37,7 +37,7 @@ struct SceneCamera {
 /// The field that the colours of the bodies show.
 enum class Field { kSkin, kDisplacement, kSpeed, kStretch, kStrain, kStress, kVolume, kFill, kRegion };
 
-/// What a colour range covers.
+/// The values that a colour range covers.
 enum class RangeOver { kFilm, kFrame };
 
 /// Bricks drawn instead of the skins.

@@ -28,7 +28,7 @@ struct Check {
 
   /// measured / expected - 1; the difference if 0 is expected.
   [[nodiscard]] double error() const;
-  /// Whether the check has a tolerance and can fail.
+  /// Returns whether the check has a tolerance and can fail.
   [[nodiscard]] bool is_gate() const;
   [[nodiscard]] bool passed() const;
 };

@@ -133,7 +133,7 @@ struct Outcome {
 class Runs {
  public:
   Runs(const std::string& name, const Film& film, const Observer& observer)
-      : name_(name), scene_(film), observer_(observer) {
+      : name_(name), film_(film), observer_(observer) {
     if (!film.experiment.nodes.empty()) known_ = read_known_solutions(film.experiment.nodes);
   }
 
@@ -142,12 +142,12 @@ class Runs {
     observer_.check_interrupt();
     const Outcome outcome = simulate_variant(variant);
     std::vector<std::string> seen;
-    for (const Expectation& expectation : scene_.expectations) {
+    for (const Expectation& expectation : film_.expectations) {
       if (!applies(expectation, variant)) continue;
       seen.push_back(expectation.quantity);
       add_expected(expectation, variant, outcome);
     }
-    for (const Expectation& expectation : scene_.expectations) {
+    for (const Expectation& expectation : film_.expectations) {
       const std::string& quantity = expectation.quantity;
       if (!is_chosen || contains(seen, quantity)) continue;
       seen.push_back(quantity);
@@ -175,7 +175,7 @@ class Runs {
     const Observer silent;
     Outcome outcome;
     try {
-      const Film film = with_variant(scene_, variant);
+      const Film film = with_variant(film_, variant);
       Simulation simulation = prepare_simulation(film, silent);
       outcome.recording = simulate(simulation, film, silent);
       const auto& body = simulation.world.bodies.front();
@@ -197,7 +197,7 @@ class Runs {
   }
 
   [[nodiscard]] std::string grid_text(const BrickVariant& variant) const {
-    const Eigen::Vector3i counts = grid_counts(scene_, variant);
+    const Eigen::Vector3i counts = grid_counts(film_, variant);
     return fmt::format("{}x{}x{}", counts.x(), counts.y(), counts.z());
   }
 
@@ -208,7 +208,7 @@ class Runs {
     check.model = model_name(variant.model);
     check.poisson = variant.poisson;
     check.grid = grid_text(variant);
-    check.bricks_across = grid_counts(scene_, variant).minCoeff();
+    check.bricks_across = grid_counts(film_, variant).minCoeff();
     check.expected = kNaN;
     check.trouble = outcome.trouble;
     if (!outcome.recording) return check;
@@ -230,7 +230,7 @@ class Runs {
   }
 
   const std::string& name_;
-  const Film& scene_;
+  const Film& film_;
   const Observer& observer_;
   std::vector<KnownSolution> known_;
   CaseResult result_;

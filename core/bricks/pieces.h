@@ -36,7 +36,7 @@ class PieceList {
   [[nodiscard]] int brick_of(int piece) const { return pieces_[piece].brick; }
   /// The samples of a brick, or null if the surface does not cut it.
   [[nodiscard]] const CutCell* cut(int brick) const;
-  /// Whether all of its samples are inside.
+  /// Returns whether all of its samples are inside.
   [[nodiscard]] bool is_whole(int brick) const;
   /// The piece of a sample or spot of a brick; -1: outside, or too small a piece.
   [[nodiscard]] int at(int brick, int sample) const;
@@ -67,7 +67,7 @@ struct PieceLinks {
 /// neighbour.
 [[nodiscard]] PieceLinks link_pieces(const PieceList& list);
 
-/// What split_pieces() found.
+/// Counts of what split_pieces() did.
 struct PieceReport {
   int divided = 0;            // cells that hold more than one piece
   int attached = 0;           // pieces joined to a neighbour although their link is too thin for the samples

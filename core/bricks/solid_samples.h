@@ -90,7 +90,7 @@ class SolidSamples {
   [[nodiscard]] int brick_at(const Eigen::Vector3i& cell) const;
   /// In cells.
   [[nodiscard]] Vec3 position_of(const CutCell& cell, int sample) const;
-  /// Whether a straight line meets no triangle.
+  /// Returns whether a straight line meets no triangle.
   [[nodiscard]] bool sees(const Vec3& from, const Vec3& to) const { return !triangles_.is_blocked(from, to); }
 
  private:

@@ -15,10 +15,10 @@ class ContactStates {
   /// also starts afresh.
   void begin_frame(World& world, const std::vector<std::vector<std::size_t>>& groups);
 
-  /// Of a group of begin_frame().
+  /// The contacts of a group of begin_frame().
   [[nodiscard]] SweptContacts& of(const std::vector<std::size_t>& group) const { return *by_group_.at(group); }
 
-  /// Of all groups since begin_frame().
+  /// How often the guard acted in all groups since begin_frame().
   [[nodiscard]] GuardCounts guard_counts() const;
 
  private:

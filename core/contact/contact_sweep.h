@@ -44,7 +44,7 @@ class ContactSweep {
   /// Adds the contacts that carried a load in the previous step, or those that must start to.
   void add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt,
                     bool are_loaded);
-  /// Whether a contact with the same other body carries a load at the node nearest to this one's point; if not
+  /// Returns whether a contact with the same other body carries a load at the node nearest to this one's point; if not
   /// `is_asked`, this one does from now on.
   [[nodiscard]] bool is_supported_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked);
   void add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_masses, double dt);

@@ -31,7 +31,7 @@ class SkinPotential {
   SkinPotential(const SkinPotential&) = delete;
   SkinPotential& operator=(const SkinPotential&) = delete;
 
-  /// Whether there are any possible contacts or glue.
+  /// Returns whether there are any possible contacts or glue.
   [[nodiscard]] bool any() const { return !glue_.empty() || !watches_.empty(); }
 
   /// Updates triangles and normals to the bodies' current positions.

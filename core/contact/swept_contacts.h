@@ -18,7 +18,7 @@ class SweptContacts {
         sweep_(group_, std::move(glue)),
         guard_(near_) {}
 
-  /// Whether it was made for these bodies and obstacles, as they are.
+  /// Returns whether it was made for these bodies and obstacles, as they are.
   [[nodiscard]] bool is_of(const Group& group, const World& world) const {
     return group == group_ && near_.is_of_surfaces(world);
   }

@@ -38,7 +38,7 @@ inline constexpr float kExportedRoughness = 0.6F;
 /// The mesh's own normals; if it has none, area-weighted vertex normals.
 [[nodiscard]] Points shading_normals(const PosedMesh& mesh);
 
-/// What a mesh may have besides positions and triangles.
+/// The data that a mesh may have besides positions and triangles.
 struct MeshContent {
   bool normals = false;
   bool uvs = false;
@@ -72,10 +72,10 @@ struct UnsupportedFormat {
 };
 [[nodiscard]] std::span<const UnsupportedFormat> unsupported_formats();
 
-/// What these meshes have and the format cannot hold: "textures, part names"; empty if nothing is lost.
+/// Lists what these meshes have and the format cannot hold: "textures, part names"; empty if nothing is lost.
 [[nodiscard]] std::string lost_content(const MeshFormat& format, const std::vector<PosedMesh>& meshes);
 
-/// By the extension of a file, ignoring case; null for an unknown one.
+/// Returns the format with the extension of a file, ignoring case; null for an unknown one.
 [[nodiscard]] const MeshFormat* find_mesh_format(const std::filesystem::path& file);
 
 /// Writes by way of a PartialFile; textures and materials that the format keeps in separate files go beside it.

@@ -17,9 +17,9 @@ enum class Model {
 };
 
 [[nodiscard]] std::string_view model_name(Model model);
-/// Whether bricks of the model are computed in packs, see SpringSystem.
+/// Returns whether bricks of the model are computed in packs, see SpringSystem.
 [[nodiscard]] constexpr bool has_tiles(Model model) { return model != Model::kFem; }
-/// Whether bodies of the model are mass-spring systems, whose bricks are a BrickLaw each.
+/// Returns whether bodies of the model are mass-spring systems, whose bricks are a BrickLaw each.
 [[nodiscard]] constexpr bool has_springs(Model model) { return model != Model::kFem && model != Model::kCalibrated; }
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Model model_from_name(std::string_view name);

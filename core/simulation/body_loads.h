@@ -22,14 +22,14 @@ void place(ForcedPart& part, const Mat3& rotation, const Vec3& translation);
 /// Throws Error(kBadInput) if a force or a muscle of a body of the scene acts on none of its bodies.
 void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins);
 
-/// What a force is spread over: all solids of one copy of a body.
+/// The volume that a force is spread over: all solids of one copy of a body.
 struct ForcedWhole {
   double size = 0;             // m^3 or m^2
   Vec3 arm = Vec3::Zero();     // of a moment, m^3
   Mat3 second = Mat3::Zero();  // of a moment, m^4
 };
 
-/// By body of the world, and by force of its scene body.
+/// These volumes by body of the world, and by force of its scene body.
 [[nodiscard]] std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene,
                                                                   const std::vector<Origin>& origins);
 

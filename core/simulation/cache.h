@@ -89,7 +89,7 @@ class CacheReader {
   std::size_t frame_count_ = 0;
 };
 
-/// Whether the file's name ends in .h5.
+/// Returns whether the file's name ends in .h5.
 [[nodiscard]] bool is_cache_file(const std::filesystem::path& file);
 
 }  // namespace sprung

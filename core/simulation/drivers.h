@@ -40,7 +40,7 @@ class LoadDriver {
    private:
     Movement movement_;  // whose shift is the value
   };
-  /// Of one body of the scene.
+  /// The curves of one body of the scene.
   struct BodyCurves {
     std::vector<Curve> forces;
     std::vector<Curve> muscles;

@@ -30,7 +30,7 @@ class SceneMotion {
 
   /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
-  /// Of all explicit steps so far.
+  /// How often the guard acted in all explicit steps so far.
   [[nodiscard]] const GuardCounts& guard_counts() const { return guard_counts_; }
   /// Likewise, each step counting the bricks that took it.
   [[nodiscard]] double brick_steps() const { return brick_steps_; }

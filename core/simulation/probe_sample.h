@@ -12,8 +12,8 @@
 
 namespace sprung {
 
-/// What a probe measures in one frame, of the kinds of probes named; zero for others. A pin: the mean of its nodes. A
-/// part: the mean of its material.
+/// The measurement of a probe in one frame, of the kinds of probes named; zero for others. A pin: the mean of its
+/// nodes. A part: the mean of its material.
 struct ProbeSample {
   Vec3 position = Vec3::Zero();      // m
   Vec3 displacement = Vec3::Zero();  // m, from the start
@@ -84,7 +84,7 @@ inline constexpr std::array<ProbeQuantity, 13> kProbeQuantities{
      {"max_strain", "", {}, &ProbeSample::max_strain, detail::kOfParts},
      {"mean_strain", "", {}, &ProbeSample::mean_strain, detail::kOfParts}}};
 
-/// Of one probe in one frame.
+/// The sample of one probe in one frame.
 inline constexpr std::size_t kNumbersOfProbe = [] {
   std::size_t sum = 0;
   for (const ProbeQuantity& quantity : kProbeQuantities) sum += quantity.size();

@@ -65,7 +65,7 @@ class RunCache {
   /// Closes the file.
   void close();
 
-  /// Whether there is a file.
+  /// Returns whether there is a file.
   [[nodiscard]] bool has_file() const { return writer_ != nullptr; }
 
   [[nodiscard]] int frame_count() const { return frame_count_; }

@@ -47,7 +47,7 @@ struct Selection {
   std::filesystem::path mesh;    // absolute; the inside of a mesh, in the units and frame of the body's mesh
 };
 
-/// Whether it selects the whole body.
+/// Returns whether it selects the whole body.
 [[nodiscard]] bool is_whole(const Selection& selection);
 
 inline constexpr double kDefaultSize = 0.2;  // m, longest side of a body whose scene names neither size nor scale
@@ -219,7 +219,7 @@ struct SceneSolver {
   double time_limit = 24 * 3600;  // s of computing time that a motion may be forecast to take
 };
 
-/// What is measured: a point of a body, one of its pins, or a part of it.
+/// The object of a measurement: a point of a body, one of its pins, or a part of it.
 enum class ProbeKind { kPoint, kPin, kPart };
 
 /// Quantities recorded in every frame: of a point of a body, of a pin, or of a part of a body, else of all of it.
@@ -306,7 +306,7 @@ struct Scene {
   std::vector<Probe> probes;
 };
 
-/// Whether the frames are a motion in time; else they are equilibria or vibration modes.
+/// Returns whether the frames are a motion in time; else they are equilibria or vibration modes.
 [[nodiscard]] bool is_motion(const Scene& scene);
 
 /// The strain measure of the results: displacements of linear statics and of modes are small.

@@ -334,7 +334,8 @@ void check_start(const Scene& scene, const Simulation& simulation, const Observe
   if (!world.bodies_collide) return;
   std::vector<Overlap> overlaps;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    const double depth = std::max(check_pair(simulation, a, b), check_pair(simulation, b, a));
+    const double of_first = check_pair(simulation, a, b);
+    const double depth = std::max(of_first, check_pair(simulation, b, a));
     const double brick = std::min(world.bodies[a].grid.brick_size, world.bodies[b].grid.brick_size);
     if (depth > kTouching * brick) overlaps.push_back({a, b, depth});
   }

@@ -12,7 +12,7 @@ struct SkinPiece {
   int triangle = 0;
   Mat3 corners = Mat3::Identity();  // a column for each: its barycentric coordinates in the triangle
 
-  /// Of the triangle's area.
+  /// The fraction of the triangle's area.
   [[nodiscard]] double share() const { return std::abs(corners.determinant()); }
 };
 

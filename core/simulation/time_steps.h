@@ -17,7 +17,7 @@ struct StepPlan {
   [[nodiscard]] bool is_implicit() const { return scheme == Solver::kImplicitEuler || scheme == Solver::kBdf2; }
 };
 
-/// What would make this motion faster.
+/// Advice on what would make this motion faster.
 [[nodiscard]] std::string_view remedy_for(const StepPlan& plan);
 
 /// A warning if a frame takes very many steps; else empty.

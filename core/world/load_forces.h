@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// What pressures act on: the contact surface of a body that may touch others, else its drawn skin.
+/// The surface that pressures act on: the contact surface of a body that may touch others, else its drawn skin.
 struct LoadedSkin {
   const Embedding& points;
   const Triangles& triangles;
@@ -21,7 +21,7 @@ class LoadForces {
   /// Both must outlive it.
   LoadForces(const SoftBody& body, const World& world) : body_(body), world_(world) {}
 
-  /// Whether there are any loads or wind.
+  /// Returns whether there are any loads or wind.
   [[nodiscard]] bool any() const { return !body_.loads.empty() || world_.wind.blows(); }
 
   /// For the body's current positions and velocities; m x 3, N. Call once per step.

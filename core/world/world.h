@@ -34,7 +34,7 @@ struct ContactSkin {
   bool with_itself = true;                          // not if it overlaps itself at rest
 };
 
-/// What is drawn of a body.
+/// The skin with which a body is drawn.
 struct BodySkin {
   Skin skin{};                                // at rest, in the frame of the bricks
   Embedding embedding{};                      // of its vertices

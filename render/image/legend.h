@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// What the colours of a picture mean: a colour bar, or single colours with names.
+/// An explanation of the colours of a picture: a colour bar, or single colours with names.
 struct Legend {
   struct Swatch {
     std::string name;

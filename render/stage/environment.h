@@ -21,8 +21,8 @@ struct Environment {
   /// polynomials of the direction, in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2 (Ramamoorthi and Hanrahan,
   /// "An Efficient Representation for Irradiance Environment Maps", 2001).
   std::array<Eigen::Vector3f, 9> irradiance;
-  /// What surfaces of roughness 1/4, 1/2 and 3/4 reflect, by mirrored direction: the panorama filtered by their
-  /// specular lobes; each level is half as wide and high as the one before.
+  /// The light that surfaces of roughness 1/4, 1/2 and 3/4 reflect, by mirrored direction: the panorama filtered by
+  /// their specular lobes; each level is half as wide and high as the one before.
   std::array<Panorama, 3> reflections;
 
   std::optional<Sun> sun{};                      // not in the light above

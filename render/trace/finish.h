@@ -49,9 +49,9 @@ class Finish {
   /// A direction in which to continue; it may lie below the surface, where nothing is reflected.
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random,
                                        float choice) const;
-  /// Whether that choice selects the base.
+  /// Returns whether that choice selects the base.
   [[nodiscard]] bool picks_base(float choice) const { return choice >= specular_choice_; }
-  /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.
+  /// Returns whether light that meets a surface without a base enters; otherwise sample() says where it goes.
   [[nodiscard]] bool is_transmitted(float choice) const { return !has_base_ && choice >= specular_choice_; }
   /// The normal of a facet that light enters through, and the fraction of light that enters over the probability of
   /// is_transmitted().

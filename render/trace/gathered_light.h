@@ -36,7 +36,7 @@ class GatheredLight {
   /// The light that bodies reflect onto that rectangle of the ground, in texels of its own, for the shapes of the last
   /// update.
   [[nodiscard]] const GroundGlow& onto_ground(const GroundLight& ground);
-  /// Whether light enters any body, or a metal mirrors others.
+  /// Returns whether light enters any body, or a metal mirrors others.
   [[nodiscard]] bool has_through() const { return media_.any() || has_metals_; }
 
  private:

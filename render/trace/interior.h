@@ -13,7 +13,7 @@ class Media {
  public:
   Media(const Stage& stage, const StageSpace& space);
 
-  /// Whether light enters any body, or that of a skin.
+  /// Returns whether light enters any body, or that of a skin.
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool is_entered(int skin) const { return scatterings_[std::size_t(skin)] > 0; }
   /// Per unit of length in stage space; 0 if no light enters.
@@ -38,7 +38,7 @@ class Interior {
   explicit Interior(const Media& media) : media_(media) {}
 
   [[nodiscard]] bool is_empty() const { return count_ == 0; }
-  /// Whether leaving that skin leads outside.
+  /// Returns whether leaving that skin leads outside.
   [[nodiscard]] bool is_only(int skin) const { return count_ == 1 && layers_[0].skin == skin; }
   /// Precondition: not empty.
   [[nodiscard]] const Medium& medium() const { return layers_[top_].medium; }

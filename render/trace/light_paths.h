@@ -42,14 +42,14 @@ class LightPaths {
   /// The shapes must not change until the next update.
   void update(const Motion& motion);
   [[nodiscard]] const StageSpace& space() const { return space_; }
-  /// Whether ghosts, or anything else that is not opaque, is visible.
+  /// Returns whether ghosts, or anything else that is not opaque, is visible.
   [[nodiscard]] bool has_faint() const { return has_ghosts_ || has_faint_skins_; }
-  /// Whether the floor looks different from pixel to pixel.
+  /// Returns whether the floor looks different from pixel to pixel.
   [[nodiscard]] bool has_pattern() const { return pattern_ != nullptr; }
 
-  /// Whether the ray certainly meets no body and nothing that one does to the floor.
+  /// Returns whether the ray certainly meets no body and nothing that one does to the floor.
   [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
-  /// Whether it meets a skin, however faint.
+  /// Returns whether it meets a skin, however faint.
   [[nodiscard]] bool sees_skin(const Ray& from_eye) const { return meet(from_eye, 0).seen == Seen::kSkin; }
   /// `opacity`: as for RayScene::first_hit(). May run on several threads.
   [[nodiscard]] PathSample sample(const Ray& from_eye, float opacity, Sampler& sampler) const;
@@ -74,7 +74,7 @@ class LightPaths {
     float density = 0;     // with which the ray was sampled, over the solid angle; 0: it does not see the key light
     bool is_matt = false;  // a matt surface, or scattering, is on the path from here to the eye
   };
-  /// What a surface reflects towards a ray's origin, and the path along which to look for more of it.
+  /// The light that a surface reflects towards a ray's origin, and the path along which to look for more of it.
   struct Scattering {
     Reflected from_key;  // light of the key light
     Reflected unhidden;  // of the key light, if nothing occluded it

@@ -21,9 +21,9 @@ class StageLight {
   [[nodiscard]] Eigen::Vector3f around(const Eigen::Vector3f& direction) const;
   /// Irradiance over pi of an unoccluded surface from all of around(), by side x side directions.
   [[nodiscard]] Eigen::Vector3f from_around(const Eigen::Vector3f& normal, int side) const;
-  /// What the camera sees where there is nothing.
+  /// The light that the camera sees where there is nothing.
   [[nodiscard]] Eigen::Vector3f background(const Eigen::Vector3f& direction) const;
-  /// What it sees of the floor, of that albedo, without bodies.
+  /// The light that it sees of the floor, of that albedo, without bodies.
   [[nodiscard]] Eigen::Vector3f floor(const Eigen::Vector3f& direction, const Eigen::Vector3f& albedo) const;
   /// Irradiance over pi of unoccluded level ground, as it follows from around() and the key light.
   [[nodiscard]] const Eigen::Vector3f& on_open_floor() const { return on_open_floor_; }

@@ -30,7 +30,7 @@ class CrossingGuard {
   /// Changes velocities so that nothing crosses in a step of dt; call after NearFeatures::begin_step() and all other
   /// changes of velocities. `inverse_masses` by body of the group and node, 1/kg, 0 for pinned nodes.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
-  /// Of all calls of apply().
+  /// How often it acted, in all calls of apply().
   [[nodiscard]] const GuardCounts& counts() const { return counts_; }
 
  private:
@@ -38,15 +38,16 @@ class CrossingGuard {
   [[nodiscard]] double inverse_mass(std::size_t row, int node) const {
     return row < near_.group_size() ? (*inverse_masses_)[row][node] : 0;
   }
-  /// Whether no impulse can move it.
+  /// Returns whether no impulse can move it.
   [[nodiscard]] bool is_pinned(const AwakePair& pair, int corner) const;
   [[nodiscard]] bool can_be_moved(const AwakePair& pair) const;
   enum class Outcome { kUnchanged, kChanged, kFailed };
-  /// Whether velocities were changed and the pairs must be checked again. `rounds`: raised to the number it took.
+  /// Returns whether velocities were changed and the pairs must be checked again. `rounds`: raised to the number it
+  /// took.
   [[nodiscard]] Outcome keep_apart(double dt, int& rounds);
   void count(int rounds, bool has_failed);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;
-  /// Whether a plane that turns with the nearest points separates the features throughout a step of dt.
+  /// Returns whether a plane that turns with the nearest points separates the features throughout a step of dt.
   [[nodiscard]] bool stay_apart_turning(const AwakePair& pair, double dt) const;
   /// Lists the pairs that may meet, in addition to earlier ones; false: there are none now.
   bool find_met(double dt);

@@ -79,8 +79,8 @@ class FeaturePairs : private NearLists {
   /// The gap (m) at which contact keeps two features: so that what is drawn at them keeps off too.
   [[nodiscard]] double reach_of(const FeaturePair& pair);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
-  /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
-  /// of its last if it is 2.
+  /// Returns whether one of two edges passes through a triangle at the other: that of the pair's first corners if
+  /// `edge` is 0, of its last if it is 2.
   [[nodiscard]] bool pierces(const AwakePair& edges, int edge);
   /// The difference of the surfaces' normals at the nearest points, of any length: opposite to the pair's normal if one
   /// feature lies inside the other's surface.
@@ -88,20 +88,20 @@ class FeaturePairs : private NearLists {
   /// Unit, where the nearest points coincide: that of the triangle or of both edges, on the side to which the surfaces
   /// face.
   [[nodiscard]] Vec3 normal_of_touching(const AwakePair& pair);
-  /// Of the pair's triangle, of any length.
+  /// The outward normal of the pair's triangle, of any length.
   [[nodiscard]] Vec3 outward_normal(const AwakePair& pair);
-  /// Whether the pair's point is behind the triangle and inside its surface. A point behind a triangle can be outside:
-  /// the body may have been flattened until it is inside out there.
+  /// Returns whether the pair's point is behind the triangle and inside its surface. A point behind a triangle can be
+  /// outside: the body may have been flattened until it is inside out there.
   [[nodiscard]] bool is_inside(const AwakePair& pair);
   /// Turns a pair around whose point is inside. A point behind the triangle and beside it cannot be supported by it,
   /// but still must not cross it.
   void orient(AwakePair& pair, bool is_inside);
-  /// Whether the bricks of two points, `point` of the surface `side`, are connected.
+  /// Returns whether the bricks of two points, `point` of the surface `side`, are connected.
   [[nodiscard]] bool are_connected(std::size_t side, int point, int other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
-  /// Whether a pair that is due is kept apart until the trees are followed again by the plane that last separated it,
-  /// which is cheaper to find out than to measure it.
+  /// Returns whether a pair that is due is kept apart until the trees are followed again by the plane that last
+  /// separated it, which is cheaper to find out than to measure it.
   [[nodiscard]] bool stays_apart(Sleeper& sleeper, double closer, double coming);
   /// How far (m) its two features may approach until the trees are followed again: along the normal of a plane that
   /// separates them, and so less than any two points of their clusters may.
@@ -112,8 +112,8 @@ class FeaturePairs : private NearLists {
   };
   /// The step in which a pair carried a load at the node nearest to the point of this one.
   [[nodiscard]] long& loaded_at(const AwakePair& pair);
-  /// Whether a woken pair need not be checked until it is woken again, since another one supports its point or its
-  /// node.
+  /// Returns whether a woken pair need not be checked until it is woken again, since another one supports its point or
+  /// its node.
   [[nodiscard]] bool may_skip(const AwakePair& pair, const Woken& woken);
   /// Points at the edge of a triangle, or inside, are supported by the nearest triangle only.
   void choose_supports(std::vector<AwakePair>& pairs);

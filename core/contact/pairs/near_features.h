@@ -25,7 +25,7 @@ class NearFeatures {
   NearFeatures(const Group& group, const World& world, const std::vector<GluedPoint>& glue = {},
                Surfaces surfaces = {});
   [[nodiscard]] Surfaces take_surfaces() && { return std::move(surfaces_); }
-  /// Whether bodies and obstacles still have the same surfaces.
+  /// Returns whether bodies and obstacles still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces(const World& world) const;
 
   /// Measures the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`: since the obstacles had
@@ -38,7 +38,7 @@ class NearFeatures {
 
   /// As they were when last measured.
   [[nodiscard]] const std::vector<AwakePair>& awake() const { return awake_; }
-  /// Whether a corner of one of these is inside the other body: they overlap there.
+  /// Returns whether a corner of one of these is inside the other body: they overlap there.
   [[nodiscard]] bool is_entangled(std::size_t row);
   /// m, the smallest brick.
   [[nodiscard]] double brick() const { return brick_; }

@@ -36,7 +36,7 @@ class ShapePairs {
     double coming;  // m, that it may come closer until woken again
   };
   [[nodiscard]] int nearest_node(int point) const;
-  /// Whether a woken point need not be checked until it is woken again, since another one supports its node.
+  /// Returns whether a woken point need not be checked until it is woken again, since another one supports its node.
   [[nodiscard]] bool may_skip(const Woken& woken);
 
   SurfaceTree& tree_;

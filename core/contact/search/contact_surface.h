@@ -66,7 +66,7 @@ inline constexpr double kBent = 0.5;
 /// A normal of the skin at rest transformed with its brick, unit.
 [[nodiscard]] Vec3 carried_normal(const Body& body, int brick, const Vec3& normal);
 
-/// Whether two bricks share a node.
+/// Returns whether two bricks share a node.
 [[nodiscard]] bool share_a_node(const Body& body, int a, int b);
 
 /// Built on first use: contacts, their triangles and the rest shape do not change after that.

@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// Whether it has a surface with edges: a box, cylinder (as a prism) or mesh.
+/// Returns whether it has a surface with edges: a box, cylinder (as a prism) or mesh.
 [[nodiscard]] bool has_edges(const Shape& shape);
 
 /// That surface as one of a body, whose few bricks move as one: contact search treats it like a body. Triangles are no

@@ -102,7 +102,7 @@ class SurfaceTree {
   /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
   /// have the point `except` as a corner are left out.
   [[nodiscard]] int winding_number(const Vec3& start, const Vec3& direction, int except = -1);
-  /// Whether a point (m) is inside.
+  /// Returns whether a point (m) is inside.
   [[nodiscard]] bool encloses(const Vec3& position) { return winding_number(position, kSkew) > 0; }
 
  private:
@@ -115,7 +115,7 @@ class SurfaceTree {
   void find_position(int point);
   void find_velocity(int point);
   [[nodiscard]] double height_above(int triangle);
-  /// Of the segment from `start` to `end` with the triangles of a subtree.
+  /// Sums the signed crossings of the segment from `start` to `end` with the triangles of a subtree.
   [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
   /// Computes the motion of every node of the tree from the past and coming displacements of the body's nodes.
   void measure(const Points& moved, const Points& moving, double more, std::vector<Motion>& motions) const;

@@ -18,8 +18,8 @@ using RowPairs = std::vector<std::array<int, 2>>;
 /// search for a separating axis whose rounding is bounded.
 [[nodiscard]] RowPairs crossing_pairs(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& cells);
 
-/// Whether two triangles have a point in common. Exact. Triangles without area are treated as segments; those reduced
-/// to a point cross nothing.
+/// Returns whether two triangles have a point in common. Exact. Triangles without area are treated as segments; those
+/// reduced to a point cross nothing.
 [[nodiscard]] bool do_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
 }  // namespace sprung

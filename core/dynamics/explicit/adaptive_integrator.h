@@ -17,7 +17,7 @@ namespace sprung {
 /// quarter of the group's smallest brick in a step. Throws Diverged if that would take too many steps.
 [[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
-/// Of all groups: steps, each counting the bricks that take it.
+/// The steps of all groups, each times the bricks that take it.
 [[nodiscard]] double brick_steps_of(const World& world, std::span<const GroupSteps> groups);
 
 /// Advances a world frame by frame and checks each one: a number that is not finite, or a spurious gain of energy, is
@@ -36,7 +36,7 @@ class AdaptiveIntegrator {
   /// short enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
-  /// Of the last frame.
+  /// How often the guard acted in the last frame.
   [[nodiscard]] GuardCounts guard_counts() const { return contacts_.guard_counts(); }
 
   /// The state besides positions and velocities that the next frame depends on.

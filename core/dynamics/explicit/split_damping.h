@@ -47,7 +47,7 @@ class SplitDamping {
   /// -T beta M^-1 K u, zero at pinned nodes; T: the time that is due. Returns T beta u K u, J, which damping never
   /// lets grow.
   double find_change(const Eigen::VectorXd& u, Eigen::VectorXd& change);
-  /// What velocities change by in that time, m/s, and T beta v K v before, J.
+  /// Returns the change of velocities in that time, m/s, and T beta v K v before it, J.
   [[nodiscard]] std::pair<Eigen::VectorXd, double> damped_change(const Eigen::VectorXd& v);
 
   SoftBody& body_;

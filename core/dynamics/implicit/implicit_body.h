@@ -63,7 +63,7 @@ class ImplicitBody {
   [[nodiscard]] Points& forces() { return forces_; }
   /// Zeroes the forces on pinned nodes.
   void release_held();
-  /// Whether the residual forces are small relative to those at work.
+  /// Returns whether the residual forces are small relative to those at work.
   [[nodiscard]] bool has_converged() const;
   /// The rounding error of the potential, J.
   [[nodiscard]] double noise() const;

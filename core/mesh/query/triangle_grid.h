@@ -13,7 +13,7 @@ class TriangleGrid {
  public:
   TriangleGrid(const Points& points, const Triangles& triangles, const Eigen::Vector3i& counts);
 
-  /// Whether any triangle lies between the two points, which are at most a few cells apart.
+  /// Returns whether any triangle lies between the two points, which are at most a few cells apart.
   [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
 
   /// The distance to the first triangle along a ray, in units of |direction|; infinite if there is none.

@@ -13,9 +13,9 @@ namespace sprung {
 /// microseconds. Queries are thread-safe. Deterministic.
 class WindingTree {
  public:
-  /// Of the triangles whose rows are given.
+  /// A tree of the triangles whose rows are given.
   WindingTree(const Points& points, const Triangles& triangles, std::vector<int> rows);
-  /// Of all triangles.
+  /// A tree of all triangles.
   WindingTree(const Points& points, const Triangles& triangles);
 
   /// A triangle contributes nothing at points on it.

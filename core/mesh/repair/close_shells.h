@@ -24,7 +24,7 @@ struct Cap {
 /// fails: if CGAL finds no triangulation, a fan is used. Deterministic.
 [[nodiscard]] Cap fill_hole(const Hole& given);
 
-/// What close_shells() did.
+/// The repairs that close_shells() made.
 struct Closing {
   int flat = 0;            // planar caps
   int smooth = 0;          // the others
