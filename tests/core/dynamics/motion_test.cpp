@@ -26,8 +26,8 @@ TEST(StableStep, IsTheFrequencyLimitOfOneBrick) {
   Body& body = world.bodies[0];
   const double omega = std::sqrt(largest_brick_stiffness(body) / (1000 * 1e-6 / 8));
   EXPECT_NEAR(stable_step(world, 1), 2 / omega, 1e-12 / omega);
-  body.damping.beta = 0.5 / omega;  // damping ratio 1/4 at omega
-  EXPECT_NEAR(stable_step(world, 1), 2 / omega * (std::sqrt(1 + 1.0 / 16) - 0.25), 1e-12 / omega);
+  body.damping.beta = 0.125 / omega;  // damping ratio 1/16 at omega
+  EXPECT_NEAR(stable_step(world, 1), 2 / omega * (std::sqrt(1 + 1.0 / 256) - 1.0 / 16), 1e-12 / omega);
 }
 
 TEST(StableStep, StaysStableAndGrowsBeyondIt) {
