@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
+#include "app/film/concurrent_film.h"
 #include "app/film/draw_diverged.h"
 #include "app/film/film_output.h"
 #include "app/film/film_pipeline.h"
@@ -123,11 +125,16 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
     RunCache motion(file, record, goes_on);
     motion.wait_for(patience);
     with_motion_kept(motion, console, [&] {
+      const std::unique_ptr<ConcurrentFilm> concurrent =
+          goes_on ? nullptr : ConcurrentFilm::begin(scene, simulation, surroundings, choice, outputs, console, jobs);
+      const FrameSender observer(console, concurrent.get());
       Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
-                                                     [&] { return simulate(simulation, scene, console, &motion); });
+                                                     [&] { return simulate(simulation, scene, observer, &motion); });
       recording.frames = motion.take_frames();
       choice.range = choice.range.within(int(recording.progress.size()));
-      render_film({{scene, simulation, recording}}, surroundings, choice, outputs, console, jobs);
+      if (!concurrent || !concurrent->finish(choice)) {
+        render_film({{scene, simulation, recording}}, surroundings, choice, outputs, console, jobs);
+      }
       for (const Output& output : outputs) {
         if (options.overwrite && options.frames.is_whole_film())
           clear_beyond(output, choice.number(choice.range.last), console);

@@ -106,9 +106,9 @@ void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& w
 }
 
 std::string end_of(pid_t process) {
-  int status = 0;
-  if (waitpid(process, &status, 0) != process) return "was lost";
-  return WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status)) : "ended early";
+  siginfo_t info{};
+  if (waitid(P_PID, id_t(process), &info, WEXITED | WNOWAIT) != 0) return "was lost";
+  return info.si_code == CLD_EXITED ? "ended early" : fmt::format("was ended by signal {}", info.si_status);
 }
 
 }  // namespace
@@ -144,26 +144,34 @@ void DrawingProcesses::start(std::size_t number, const Work& work) {
 
 void DrawingProcesses::stop() {
   for (const Child& child : children_) close(child.pipe);
-  for (const Child& child : children_) {
-    if (child.process >= 0) kill(child.process, SIGTERM);
-  }
+  interrupt();
   for (const Child& child : children_) {
     if (child.process >= 0) waitpid(child.process, nullptr, 0);
   }
 }
 
-Image DrawingProcesses::receive(std::size_t process) {
+void DrawingProcesses::interrupt() const {
+  for (const Child& child : children_) {
+    if (child.process >= 0) kill(child.process, SIGTERM);
+  }
+}
+
+std::optional<Image> DrawingProcesses::receive(std::size_t process) {
   Child& child = children_[process];
   Header header;
   if (!read_all(child.pipe, &header, sizeof header)) {
     stop_if_interrupted();
-    throw Error(ErrorKind::kFailed, fmt::format("a drawing process {}; --jobs 1 needs none and less memory",
-                                                end_of(std::exchange(child.process, -1))));
+    throw Error(ErrorKind::kFailed,
+                fmt::format("a drawing process {}; --jobs 1 needs none and less memory", end_of(child.process)));
   }
   if (header.kind == Message::kError) {
     std::string text(header.bytes, ' ');
     read_all(child.pipe, text.data(), text.size());
     throw Error(header.error, text);
+  }
+  if (header.kind == Message::kDone) {
+    child.is_done = true;
+    return std::nullopt;
   }
   Image image;
   image.width = header.width;
@@ -180,8 +188,7 @@ Image DrawingProcesses::receive(std::size_t process) {
 
 void DrawingProcesses::finish() {
   for (std::size_t i = 0; i < children_.size(); ++i) {
-    static_cast<void>(receive(i));  // success, or an error
-    waitpid(std::exchange(children_[i].process, -1), nullptr, 0);
+    while (!children_[i].is_done) static_cast<void>(receive(i));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "render/image/image.h"
@@ -25,16 +26,19 @@ class DrawingProcesses {
   DrawingProcesses(const DrawingProcesses&) = delete;
   DrawingProcesses& operator=(const DrawingProcesses&) = delete;
 
-  /// Waits for the next picture of that child, without alpha. Throws what its work threw, Error(kFailed) if it ended
-  /// without a message, Interrupted.
-  [[nodiscard]] Image receive(std::size_t process);
+  /// Waits for the next picture of that child; none once its work is done. Throws what its work threw, Error(kFailed)
+  /// if it ended without a message, Interrupted.
+  [[nodiscard]] std::optional<Image> receive(std::size_t process);
   /// Waits for all children. Throws likewise.
   void finish();
+  /// Asks the children to stop; may be called by another thread than those above.
+  void interrupt() const;
 
  private:
   struct Child {
     int pipe;
-    pid_t process;  // -1: has ended
+    pid_t process;  // -1: did not start
+    bool is_done = false;
   };
   void start(std::size_t number, const Work& work);
   void stop();

@@ -11,6 +11,8 @@ namespace sprung {
 namespace {
 
 constexpr double kNear = 0.25;  // of the motion's size: parts of obstacles further away may be out of view
+constexpr double kSway = 0.12;  // of the size: how far a body that falls upright is expected to move sideways ...
+constexpr double kRise = 0.02;  // ... and to rise
 constexpr int kStops = 16;      // along the camera's path, from which everything has to be in view
 
 /// Rows: directions to the faces, edges and corners of a cube.
@@ -156,6 +158,50 @@ Reach reach_of(const Simulation& simulation, const Recording& recording) {
   add_obstacles(simulation, recording, reach);
   reach.ground = ground_height(simulation.world.obstacles);
   return reach;
+}
+
+namespace {
+
+/// Whether the bodies fall onto the ground from rest and nothing else moves them.
+bool is_plain_fall(const Film& film) {
+  const auto is_left_alone = [](const SceneBody& body) {
+    return body.velocity.isZero() && body.spin.isZero() && body.pins.empty() && body.forces.empty() &&
+           body.muscles.empty();
+  };
+  return is_motion(film) && film.gravity_keyframes.empty() && film.gravity.x() == 0 && film.gravity.z() == 0 &&
+         film.gravity.y() < 0 && !film.wind && film.obstacles.size() == 1 &&
+         std::all_of(film.bodies.begin(), film.bodies.end(), is_left_alone);
+}
+
+bool stands_still(const SceneCamera& camera) {
+  return camera.body_height && camera.orbit == 0 && !camera.follow && camera.keyframes.empty();
+}
+
+}  // namespace
+
+std::optional<Reach> foreseen_reach(const Film& film, const Simulation& simulation, const Recording& recording) {
+  const std::optional<double> ground = ground_height(simulation.world.obstacles);
+  if (!ground || !is_plain_fall(film) || !stands_still(film.camera)) return std::nullopt;
+  Recording start;
+  start.frames.push_back(recording.frames.front());
+  start.progress.push_back(recording.progress.front());
+  Reach reach = reach_of(simulation, start);
+  const double size = reach.bounds.sizes().maxCoeff();
+  const Vec3 room(kSway * size, kRise * size, kSway * size);
+  Points landed = reach.bodies.front();
+  landed.col(1).array() -= reach.bounds.min().y() - *ground;
+  Vec3 low = reach.bounds.min() - room;
+  low.y() = std::min(low.y(), *ground);
+  reach.bounds = AlignedBox(low, reach.bounds.max() + room);
+  reach.around = corners_of(reach.bounds);
+  reach.bodies.assign(recording.progress.size(), landed);
+  reach.middles.assign(recording.progress.size(), reach.middles.front());
+  return reach;
+}
+
+bool is_foreseen(const Reach& foreseen, const AlignedBox& bounds) {
+  return (bounds.min().x() >= foreseen.bounds.min().x()) && (bounds.min().z() >= foreseen.bounds.min().z()) &&
+         (bounds.max().array() <= foreseen.bounds.max().array()).all();
 }
 
 Reach joined(const std::vector<Reach>& runs) {

@@ -18,6 +18,16 @@ struct Reach {
 
 [[nodiscard]] Reach reach_of(const Simulation& simulation, const Recording& recording);
 
+/// The extent within which bodies that fall onto the ground are expected to stay: known before they move, so that
+/// pictures can be drawn while later frames are computed. `recording` needs its first frame and the times of all. None
+/// for a film in which anything else moves the bodies, or whose camera moves or is placed without regard to their
+/// height.
+[[nodiscard]] std::optional<Reach> foreseen_reach(const Film& film, const Simulation& simulation,
+                                                  const Recording& recording);
+
+/// Returns whether bodies with these bounds are within the expected extent; those below the ground are not seen there.
+[[nodiscard]] bool is_foreseen(const Reach& foreseen, const AlignedBox& bounds);
+
 /// The union of one or more runs; those that end early stay in their last frame.
 [[nodiscard]] Reach joined(const std::vector<Reach>& runs);
 

@@ -32,7 +32,13 @@ Reach common_reach(const std::vector<FilmRun>& runs) {
   std::vector<Reach> all;
   all.reserve(runs.size());
   for (const FilmRun& run : runs) all.push_back(reach_of(run.simulation, run.recording));
-  return joined(all);
+  Reach reach = joined(all);
+  if (runs.size() > 1) return reach;
+  const FilmRun& run = runs.front();
+  std::optional<Reach> foreseen = foreseen_reach(run.film, run.simulation, run.recording);
+  if (!foreseen || !is_foreseen(*foreseen, reach.bounds)) return reach;
+  foreseen->lowest = reach.lowest;
+  return *foreseen;
 }
 
 std::size_t longest_of(const std::vector<FilmRun>& runs) {

@@ -14,6 +14,8 @@
 #include "app/console/interrupt.h"
 #include "app/film/drawing_processes.h"
 #include "app/film/film_output.h"
+#include "app/film/film_report.h"
+#include "app/film/film_task.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -21,144 +23,42 @@
 namespace sprung {
 namespace {
 
-/// Depth of the lowest vertex in any frame, m; none without a ground.
-std::optional<double> depth_below_ground(const Simulation& simulation, double lowest) {
-  const std::optional<double> ground = ground_height(simulation.world.obstacles);
-  if (!ground) return std::nullopt;
-  return std::max(0.0, *ground - lowest);
-}
-
-/// Warns if that is visible.
-void warn_of_depth(const Simulation& simulation, double lowest, const Console& console) {
-  constexpr double kSeen = 0.01;  // of the size
-  const double depth = depth_below_ground(simulation, lowest).value_or(0);
-  if (!(depth > kSeen * simulation.size)) return;
-  console.warn(
-      fmt::format("the drawn skin reaches {} below the ground, {:.1f} % of the size: smaller bricks (bricks) or "
-                  "slower impacts keep it up",
-                  readable(depth, Dimension::kLength), 100 * depth / simulation.size));
-}
-
-/// The deepest penetration of the ground by any vertex in any frame.
-std::string ground_report(const Simulation& simulation, double lowest) {
-  const std::optional<double> depth_below = depth_below_ground(simulation, lowest);
-  if (!depth_below) return "";
-  const double depth = *depth_below;
-  return fmt::format(", lowest vertex {} below the ground ({:.2f} % of the size)", readable(depth, Dimension::kLength),
-                     100 * depth / simulation.size);
-}
-
-/// Whether all its files exist.
-bool exists(const std::vector<Output>& outputs, int number) {
-  return std::all_of(outputs.begin(), outputs.end(),
-                     [number](const Output& output) { return std::filesystem::exists(output.picture(number)); });
-}
-
-/// Frames to draw, numbered from 1, in order: all of the choice, or as many as a sheet holds, evenly spaced.
-std::vector<int> chosen_frames(const FrameChoice& choice, const SceneRender& render,
-                               const std::vector<Output>& outputs) {
-  std::vector<int> all = choice.range.frames();
-  if (choice.skips_existing) {
-    all.erase(std::remove_if(all.begin(), all.end(), [&](int frame) { return exists(outputs, choice.number(frame)); }),
-              all.end());
-  }
-  if (!render.sheet) return all;
-  const std::size_t count = all.size();
-  const std::size_t chosen = std::min(std::size_t((*render.sheet)[0]) * std::size_t((*render.sheet)[1]), count);
-  std::vector<int> frames;
-  for (std::size_t i = 0; i < chosen; ++i) {
-    frames.push_back(all[chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0]);
-  }
-  return frames;
-}
-
-bool has(const std::vector<Output>& outputs, Output::Kind kind) {
-  return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
-}
-
-constexpr std::size_t kMinFrames = 24;     // that justify a process
-constexpr std::size_t kMaxProcesses = 16;  // by default: each needs memory for its own pictures
-
-/// The frames to draw, and the outputs.
-struct Task {
-  const FrameChoice& choice;
-  const std::vector<int> frames;
-  const std::vector<Output>& outputs;
-  const SceneRender& render;
-  double fps;
-
-  [[nodiscard]] FilmWriter::Format format() const {
-    return {.width = render.resolution[0], .height = render.resolution[1], .fps = fps, .has_alpha = render.transparent};
-  }
-  [[nodiscard]] bool has_sequence() const {
-    return std::any_of(outputs.begin(), outputs.end(), std::mem_fn(&Output::is_sequence));
-  }
-  [[nodiscard]] std::vector<Output> sequences(bool wanted) const {
-    std::vector<Output> some;
-    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(some),
-                 [wanted](const Output& output) { return output.is_sequence() == wanted; });
-    return some;
-  }
-  [[nodiscard]] Drawing draw(FilmPipeline& pipeline, int frame, const FilmPipeline::Moments& moments) const {
-    Drawing drawing{.number = choice.number(frame)};
-    if (has(outputs, Output::Kind::kPictures) || has_sequence()) drawing.image = pipeline.draw(frame - 1, moments);
-    if (has(outputs, Output::Kind::kPasses)) drawing.passes = pipeline.passes(frame - 1, moments);
-    return drawing;
-  }
-};
-
-void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console, Progress& progress) {
+void draw_here(const FilmTask& task, FilmPipeline& pipeline, const Console& console, Progress& progress) {
   console.detail(fmt::format("drawn by {}", pipeline.driver()));
-  PictureWriter writer(task.outputs, task.format());
+  PictureWriter writer(task.outputs(), task.format());
   // The skins of the next frame are deformed while this one is drawn and earlier ones are encoded.
   const auto deform_ahead = [&](std::size_t i) {
-    return std::async(std::launch::async, [&, frame = task.frames[i]] { return pipeline.moments(frame - 1); });
+    return std::async(std::launch::async, [&, frame = task.frames()[i]] { return pipeline.moments(frame - 1); });
   };
   auto next = deform_ahead(0);
   std::vector<Image> sheet;
-  for (std::size_t i = 0; i < task.frames.size(); ++i) {
+  for (std::size_t i = 0; i < task.frames().size(); ++i) {
     stop_if_interrupted();
     const FilmPipeline::Moments moments = next.get();
-    if (i + 1 < task.frames.size()) next = deform_ahead(i + 1);
-    Drawing drawing = task.draw(pipeline, task.frames[i], moments);
-    if (task.render.sheet) {
+    if (i + 1 < task.frames().size()) next = deform_ahead(i + 1);
+    Drawing drawing = task.draw(pipeline, task.frames()[i], moments);
+    if (task.is_sheet()) {
       sheet.push_back(std::move(drawing.image));
     } else {
       writer.write(std::move(drawing));
     }
     progress.update(double(i + 1));
   }
-  if (task.render.sheet)
-    writer.write({.number = task.choice.number(task.frames.front()), .image = pipeline.sheet(sheet)});
+  if (task.is_sheet()) writer.write({.number = task.number(task.frames().front()), .image = pipeline.sheet(sheet)});
   writer.close();
 }
 
-/// Every `step`th frame from `first` on: writes pictures here, sends those of films to the parent.
-void draw_share(const Task& task, FilmPipeline& pipeline, std::size_t first, std::size_t step,
-                const DrawingProcesses::Send& send) {
-  PictureWriter writer(task.sequences(false), task.format());
-  for (std::size_t i = first; i < task.frames.size(); i += step) {
-    stop_if_interrupted();
-    Drawing drawing = task.draw(pipeline, task.frames[i], pipeline.moments(task.frames[i] - 1));
-    send(task.has_sequence() ? drawing.image : Image());
-    writer.write(std::move(drawing));
-  }
-  writer.close();
-}
-
-void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t count, const Console& console,
+void draw_by_processes(const FilmTask& task, FilmPipeline& pipeline, std::size_t count, const Console& console,
                        Progress& progress) {
   console.detail(fmt::format("drawn by {} processes", count));
-  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency()) / count;
-  // Rasteriser threads per process; 0: the drawing thread alone. Does not override the user's setting.
-  setenv("LP_NUM_THREADS", std::to_string(threads > 1 ? threads : 0).c_str(), 0);
+  share_cores(count);
   DrawingProcesses processes(count, [&](std::size_t process, const DrawingProcesses::Send& send) {
-    draw_share(task, pipeline, process, count, send);
+    task.draw_share(pipeline, process, count, send, [](std::size_t) { return true; });
   });
   PictureWriter writer(task.sequences(true), task.format());
-  for (std::size_t i = 0; i < task.frames.size(); ++i) {
+  for (std::size_t i = 0; i < task.frames().size(); ++i) {
     stop_if_interrupted();
-    Image image = processes.receive(i % count);
+    Image image = processes.receive(i % count).value();
     if (task.has_sequence()) writer.write({.image = std::move(image)});
     progress.update(double(i + 1));
   }
@@ -166,35 +66,20 @@ void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t cou
   writer.close();
 }
 
-/// Number of drawing processes.
-std::size_t processes_for(const Task& task, int jobs) {
-  const std::size_t frames = task.frames.size();
-  if (task.render.sheet || task.render.quality == Quality::kFinal) return 1;  // which uses all cores for each picture
-  if (jobs > 0) return std::min<std::size_t>(frames, jobs);
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  return std::clamp(frames / kMinFrames, std::size_t{1}, std::min(cores, kMaxProcesses));
-}
-
 void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
   const Film& film = runs.front().film;
-  const Task task{choice, chosen_frames(choice, film.render, outputs), outputs, film.render,
-                  film.fps / choice.range.step};
-  if (task.frames.empty()) return console.note("--skip-existing: all pictures exist already");
-  Progress progress(console, film.render.sheet ? "sheet" : "render", double(task.frames.size()), 1, "frames/s");
+  const FilmTask task(film, choice, outputs);
+  if (task.frames().empty()) return console.note("--skip-existing: all pictures exist already");
+  Progress progress(console, film.render.sheet ? "sheet" : "render", double(task.frames().size()), 1, "frames/s");
   FilmPipeline pipeline(runs, surroundings);
-  const std::size_t processes = processes_for(task, jobs);
+  const std::size_t processes = task.processes(jobs);
   if (processes > 1 && end_worker_threads()) {
     draw_by_processes(task, pipeline, processes, console, progress);
   } else {
     draw_here(task, pipeline, console, progress);
   }
-  const auto [width, height] = film.render.resolution;
-  const std::string made =
-      count_of(task.frames.size(), film.render.sheet ? "moment" : "picture") + (film.render.sheet ? " in one" : "");
-  progress.finish(fmt::format("{} of {} x {} pixels{}", made, width, height,
-                              ground_report(runs.front().simulation, pipeline.lowest())));
-  warn_of_depth(runs.front().simulation, pipeline.lowest(), console);
+  finish_drawing(progress, task, runs.front().simulation, pipeline.lowest(), console);
 }
 
 constexpr int kSheetSide = 3;  // rows and columns of a sheet whose layout is not given
@@ -215,18 +100,6 @@ std::vector<Output> sheets_among(const std::vector<Output>& outputs, const Scene
     if ((is_single && choice.range.count() > 1 && !render.sheet) == wanted) some.push_back(output);
   }
   return some;
-}
-
-/// Chooses the format of "-".
-std::vector<Output> with_streams_chosen(std::vector<Output> outputs, const SceneRender& render,
-                                        const FrameChoice& choice) {
-  const bool is_picture = render.sheet || choice.range.count() == 1;
-  for (Output& output : outputs) {
-    if (output.stream == Output::Stream::kAny) {
-      output.stream = is_picture ? Output::Stream::kPng : Output::Stream::kY4m;
-    }
-  }
-  return outputs;
 }
 
 }  // namespace

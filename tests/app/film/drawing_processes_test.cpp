@@ -38,11 +38,12 @@ TEST(DrawingProcesses, SendInOrder) {
   });
   for (std::size_t i = 0; i < kEach; ++i) {
     for (std::size_t process = 0; process < 3; ++process) {
-      const Image image = processes.receive(process);
+      const Image image = processes.receive(process).value();
       ASSERT_EQ(image.width, 3);
       ASSERT_EQ(image.pixels, picture(10 * process + i % 10).pixels);
     }
   }
+  EXPECT_FALSE(processes.receive(1));
   processes.finish();
 }
 

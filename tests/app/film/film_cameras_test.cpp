@@ -104,5 +104,56 @@ TEST(FilmCameras, SeveralRunsAreSeenAtOnce) {
   EXPECT_NEAR(both.middles[4].x(), 0.5 * (-1.5 + 1), 1e-12);
 }
 
+/// A cube of 20 cm whose bottom is 5 cm above the ground, with the keys that bare meshes get.
+struct FallingCube {
+  Film film = scene_with({});
+  Simulation simulation;
+  Recording recording;
+
+  FallingCube() {
+    SceneBody& body = film.bodies.emplace_back();
+    body.box = Vec3::Constant(0.2);
+    body.bricks = 2;
+    body.position.y() = 0.05;
+    film.camera.body_height = 0.44;
+    film.obstacles.emplace_back().plane.emplace();
+    simulation = prepare_simulation(film, Observer());
+    recording.frames.push_back({simulation.world.bodies.front().positions.cast<float>()});
+    recording.progress = {0, 0.25, 0.5, 0.75, 1};
+  }
+  [[nodiscard]] std::optional<Reach> reach() const { return foreseen_reach(film, simulation, recording); }
+};
+
+TEST(ForeseenReach, IsFromTheStartToTheGround) {
+  const FallingCube cube;
+  const Reach reach = cube.reach().value();
+  EXPECT_EQ(reach.bodies.size(), 5U);
+  EXPECT_NEAR(reach.bodies.back().col(1).minCoeff(), 0, 1e-6);
+  EXPECT_NEAR(reach.bodies.back().col(1).maxCoeff(), 0.2, 1e-6);
+  AlignedBox bounds = reach.bounds;
+  EXPECT_TRUE(is_foreseen(reach, bounds));
+  EXPECT_TRUE(is_foreseen(reach, bounds.extend(Vec3(0, -0.1, 0)))) << "below the ground nothing is seen";
+  EXPECT_FALSE(is_foreseen(reach, bounds.extend(Vec3(0, 0.3, 0))));
+  EXPECT_FALSE(is_foreseen(reach, AlignedBox(reach.bounds).extend(Vec3(-0.2, 0.1, 0))));
+}
+
+TEST(ForeseenReach, IsNotKnownOfOtherMotions) {
+  FallingCube thrown;
+  thrown.film.bodies.front().velocity = Vec3(1, 0, 0);
+  EXPECT_FALSE(thrown.reach());
+  FallingCube pinned;
+  pinned.film.bodies.front().pins.emplace_back();
+  EXPECT_FALSE(pinned.reach());
+  FallingCube between_planes;
+  between_planes.film.obstacles.emplace_back().plane.emplace();
+  EXPECT_FALSE(between_planes.reach());
+  FallingCube seen_from_around;
+  seen_from_around.film.camera.orbit = 90;
+  EXPECT_FALSE(seen_from_around.reach());
+  FallingCube of_a_scene;
+  of_a_scene.film.camera.body_height.reset();
+  EXPECT_FALSE(of_a_scene.reach());
+}
+
 }  // namespace
 }  // namespace sprung
