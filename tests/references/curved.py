@@ -300,8 +300,48 @@ def clamped_plate(a):
         value=dict(mean_displacement_loaded_face=runs[-1]['mean'], displacement_at_10_2_0p25=runs[-1]['point']),
         measured='displacement along z', convergence=dict(mean=change(runs, 'mean'), point=change(runs, 'point')), by_mesh_size=runs)
 
+# ---------------------------------------------------------------- plate with a hole
+def plate_with_hole(a):
+    """A quarter of half the thickness: z = 0 is the middle plane. Stresses at the hole, x = 0, from the displacements of its
+    surface: hoop strain -du_x/dt / r, t the angle, and du_z/dz; free of traction across."""
+    E, nu, side, r, t, runs = 200e3, 0.3, 100.0, 10.0, 5.0, []
+    def place(p):
+        u, v, z = p.T; c, s = np.cos(v * PI / 2), np.sin(v * PI / 2)
+        out = side / np.maximum(c, s)
+        d = r + (out - r) * u ** 2
+        return np.stack([d * c, d * s, z], -1)
+    for n in (4, 6, 8, 10)[:a.sizes]:
+        M = Mesh([even(0, 1, 2 * n), even(0, 1, 4 * n), even(0, t, n)], place)
+        hole = np.unique(M.face(0, False))
+        outer = M.face(0, True); right = outer[np.abs(M.x[outer][:, :, 0] - side).max(1) < 1e-9]
+        w, area = weights(M, right)
+        assert abs(area / side / t - 1) < 1e-9, area
+        held = [(np.unique(M.face(1, True)), 0, 0.0), (np.unique(M.face(1, False)), 1, 0.0), (np.unique(M.face(2, False)), 2, 0.0)]
+        U, R, s = solve(M, E, nu, held, w[:, None] * np.array((10.0, 0, 0)), hole, a.work, 'hole')
+        back = np.nansum(R[np.unique(M.face(1, True)), 0])
+        assert abs(back / (10 * side * t) + 1) < 1e-4, back
+        step, dz = PI / 2 / (8 * n), t / (2 * n)           # between neighbouring nodes
+        def at(k, z): return U[M.node(place(np.array([[0, 1 - k / (8 * n), z]]))[0])]
+        def stress(z):
+            hoop = (8 * at(1, z)[0] - at(2, z)[0]) / (6 * step * r)
+            if z == 0: along = (8 * at(0, dz)[2] - at(0, 2 * dz)[2]) / (6 * dz)
+            elif z == t: along = (3 * at(0, t)[2] - 4 * at(0, t - dz)[2] + at(0, t - 2 * dz)[2]) / (2 * dz)
+            else: along = (at(0, z + dz)[2] - at(0, z - dz)[2]) / (2 * dz)
+            return E / (1 - nu ** 2) * (hoop + nu * along)
+        all = np.array([stress(2 * dz * i) for i in range(n)] + [stress(t)])   # at corners: faces have no middle nodes
+        mean = (all[0] + all[-1] + 4 * all[1::2].sum() + 2 * all[2:-1:2].sum()) / (3 * n)
+        runs.append(dict(bricks='%d from the hole outwards, %d around, %d over half the thickness' % (2 * n, 4 * n, n), elements=len(M.elem),
+                         nodes=len(M.x), middle=r7(all[0]), surface=r7(all[-1]), mean=r7(mean), solve_s=round(s, 1)))
+        print('plate_with_hole', runs[-1], flush=True)
+    return dict(
+        geometry='plate of 200 x 200 x 10 with a round hole of radius 10; computed on an eighth by symmetry',
+        units='mm, N, MPa', E=E, nu=nu, supports='symmetry', load='10 MPa along x at both ends',
+        measured='xx at the hole, x = 0: in the middle plane, at the surface, and mean over the thickness',
+        value={k: runs[-1][k] for k in ('middle', 'surface', 'mean')}, convergence={k: change(runs, k) for k in ('middle', 'surface', 'mean')},
+        by_mesh_size=runs)
+
 CASES = dict(half_ring=half_ring, quarter_sphere=quarter_sphere, bonded_block=bonded_block, bracket=bracket,
-             clamped_beam=clamped_beam, clamped_plate=clamped_plate)
+             clamped_beam=clamped_beam, clamped_plate=clamped_plate, plate_with_hole=plate_with_hole)
 
 def main():
     ap = argparse.ArgumentParser()

@@ -126,14 +126,14 @@ TEST_F(Load, SlidesHoldAcrossTheirPlaneOnly) {
   EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, where it is not quite uniform
 }
 
-/// Kirsch: three times the stress far away, at the hole; a plate ten times as wide as the hole has 3.03 (Howland,
-/// Phil. Trans. R. Soc. A 229 (1930) 49).
+/// Kirsch: three times the stress far away, at the hole. In a square plate ten times as wide as the hole, and as thick as
+/// half of it, it is 3.17 times in the middle plane (finite elements: plate_with_hole in tests/references/curved.json).
 TEST_F(Load, HoleInAPlateTriplesTheStress) {
   static_cast<void>(folder_.write("plate.obj", quarter_plate_obj()));
   const nlohmann::json made =
       answer("plate.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load x-high:5000N:out" + kSteel);
   const double peak = number(made, "/largest_principal_Pa/value");
-  EXPECT_NEAR(peak, 30.3e6, 0.04 * 30.3e6);
+  EXPECT_NEAR(peak, 31.72e6, 0.02 * 31.72e6);
 }
 
 /// Lame: u(a) = p a / E (K + nu), K = (b^2 + a^2) / (b^2 - a^2), in plane stress; hoop stress p K inside.
@@ -144,7 +144,7 @@ TEST_F(Load, ThickTubeFollowsLame) {
   const double k = (1600.0 + 400) / (1600 - 400);
   const double moved = 10e6 * 0.02 / 200e9 * (k + 0.3);
   EXPECT_NEAR(number(made, "/displacement_m/value"), moved, 0.03 * moved);
-  EXPECT_NEAR(number(made, "/largest_principal_Pa/value"), k * 10e6, 0.05 * k * 10e6);
+  EXPECT_NEAR(number(made, "/largest_principal_Pa/value"), k * 10e6, 0.03 * k * 10e6);
 }
 
 /// theta = T L / (G J), tau = T r / J.
@@ -155,7 +155,7 @@ TEST_F(Load, RoundBarTwistsByItsFormula) {
   const double moved = 10 * 0.1 / (200e9 / 2.6 * polar) * 0.01;
   EXPECT_NEAR(number(made, "/displacement_m/value"), moved, 0.03 * moved);
   const double stress = std::sqrt(3.0) * 10 * 0.01 / polar;
-  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), stress, 0.1 * stress);
+  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), stress, 0.03 * stress);
 }
 
 /// P = pi^2 E I / (2 L)^2; f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A)).
