@@ -11,6 +11,7 @@
 #include "core/dynamics/linear/stiffness.h"
 #include "core/dynamics/statics/free_motion.h"
 #include "core/dynamics/statics/load_steps.h"
+#include "core/dynamics/statics/rotated_step.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -125,6 +126,7 @@ class Equilibrium {
         system_(system),
         terms_(support_terms(supports)),
         options_(options),
+        rotated_(body, supports),
         rounding_(4 * std::numeric_limits<double>::epsilon() * extent(body)),
         rounding_force_(8 * largest_brick_stiffness(body) * rounding_) {}
 
@@ -185,13 +187,15 @@ class Equilibrium {
     const Points before = body_.positions;
     double share = search_along(direction, residual);
     if (share == 0) return false;
+    Points lowest = body_.positions;
     for (double energy = potential(); share < kFarthest && is_short(2 * share * direction); share *= 2) {
       move_along(before, 2 * share * direction);
       const double further = potential();
       if (further >= energy) break;
       energy = further;
+      lowest = body_.positions;
     }
-    move_along(before, share * direction);
+    body_.positions = lowest;
     return true;
   }
 
@@ -199,17 +203,34 @@ class Equilibrium {
   /// none, and the body is unchanged.
   double search_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& residual) {
     const double slope = direction.dot(residual);
+    const double rotation = rotated_.largest_rotation(body_.positions, direction);
     const Points before = body_.positions;
     const double energy = potential();
     // Close to the minimum the energy no longer resolves a step (what a rounded position costs in energy); a full
     // Newton step is then right.
     const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_));
     for (double share = 1; share > 1e-8; share /= 2) {
-      move_along(before, share * direction);
-      if (potential() <= energy - 1e-4 * share * slope + noise) return share;
+      if (energy_after(before, share * direction, share * rotation) <= energy - 1e-4 * share * slope + noise) {
+        return share;
+      }
     }
     body_.positions = before;
     return 0;
+  }
+
+  /// Moves the body from there by a displacement, along a straight line or, if that costs less energy, by finite
+  /// rotations. `rotation`: the largest in it, radians. Returns the potential.
+  double energy_after(const Points& from, const Eigen::VectorXd& way, double rotation) {
+    move_along(from, way);
+    const double straight = potential();
+    if (!(rotation > kSmallRotation)) return straight;
+    const Points turned = rotated_.displaced(from, way);
+    if (turned.rows() == 0) return straight;
+    body_.positions = turned;
+    const double around = potential();
+    if (around < straight || !std::isfinite(straight)) return around;
+    move_along(from, way);
+    return straight;
   }
 
   void move_along(const Points& from, const Eigen::VectorXd& way) {
@@ -236,6 +257,7 @@ class Equilibrium {
   LinearSolver& system_;
   const StepTerms terms_;
   const StaticOptions& options_;
+  RotatedStep rotated_;
   double rounding_;        // of a position, m
   double rounding_force_;  // that it causes, N
   ForceWorkspace workspace_;

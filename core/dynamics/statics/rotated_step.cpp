@@ -1,0 +1,127 @@
+#include "core/dynamics/statics/rotated_step.h"
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+namespace sprung {
+namespace {
+
+constexpr double kAnchor = 1e-6;  // weight of a node's straight way, in bricks: holds what no support holds
+
+BrickColumns centred(const BrickColumns& corners) { return corners.colwise() - corners.rowwise().mean(); }
+
+/// The rotation vector that explains most of the displacements `u` of corners at `x`, both about their means.
+Vec3 rotation_in(const BrickColumns& x, const BrickColumns& u) {
+  Mat3 inertia = x.squaredNorm() * Mat3::Identity() - x * x.transpose();
+  Vec3 moment = Vec3::Zero();
+  for (int c = 0; c < 8; ++c) moment += x.col(c).cross(u.col(c));
+  return inertia.ldlt().solve(moment);
+}
+
+Mat3 matrix_of(const Vec3& rotation) {
+  const double angle = rotation.norm();
+  if (angle == 0) return Mat3::Identity();
+  return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+}
+
+Points points_of(const Eigen::VectorXd& u) { return Eigen::Map<const Points>(u.data(), u.size() / 3, 3); }
+
+}  // namespace
+
+/// A factorized matrix.
+class RotatedStep::System : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {};
+
+RotatedStep::RotatedStep(const Body& body, const Supports& supports) : body_(body), supports_(supports) {}
+
+double RotatedStep::largest_rotation(const Points& positions, const Eigen::VectorXd& u) const {
+  const Points moved = points_of(u);
+  double largest = 0;
+  for (const std::array<int, 8>& nodes : body_.grid.nodes) {
+    const BrickColumns x = centred(columns_of(nodes, positions));
+    largest = std::max(largest, rotation_in(x, centred(columns_of(nodes, moved))).norm());
+  }
+  return largest;
+}
+
+Points RotatedStep::displaced(const Points& positions, const Eigen::VectorXd& u) {
+  const Points moved = points_of(u);
+  const Points straight = positions + moved;
+  Points sums = kAnchor * straight;
+  for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
+    const std::array<int, 8>& nodes = body_.grid.nodes[brick];
+    const BrickColumns x = centred(columns_of(nodes, positions));
+    const BrickColumns change = centred(columns_of(nodes, moved));
+    const Vec3 rotation = rotation_in(x, change);
+    BrickColumns shape = x + change;
+    for (int c = 0; c < 8; ++c) shape.col(c) -= rotation.cross(x.col(c));
+    shape = (body_.stiffness_scale[brick] * matrix_of(rotation) * shape).eval();
+    for (int c = 0; c < 8; ++c) sums.row(nodes[c]) += shape.col(c).transpose();
+  }
+  // What supports hold stays where the straight way takes it, and acts on its neighbours.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
+      const std::array<int, 8>& nodes = body_.grid.nodes[brick];
+      double held = 0;
+      for (const int node : nodes) {
+        if (supports_.fixed[3 * std::size_t(node) + axis]) held += straight(node, axis);
+      }
+      for (const int node : nodes) sums(node, axis) += body_.stiffness_scale[brick] * held / 8;
+    }
+  }
+  factorize();
+  Points after = straight;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (systems_[axis]->info() != Eigen::Success) return {};
+    Eigen::VectorXd right = sums.col(axis);
+    for (int node = 0; node < body_.node_count(); ++node) {
+      if (supports_.fixed[3 * std::size_t(node) + axis]) right[node] = straight(node, axis);
+    }
+    after.col(axis) = systems_[axis]->solve(right);
+  }
+  for (int node = 0; node < body_.node_count(); ++node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (supports_.fixed[3 * std::size_t(node) + axis]) after(node, axis) = straight(node, axis);
+    }
+  }
+  return after;
+}
+
+void RotatedStep::factorize() {
+  if (held_ == supports_.fixed) return;
+  held_ = supports_.fixed;
+  systems_ = {};
+  for (int axis = 0; axis < 3; ++axis) systems_[axis] = factorized(axis);
+}
+
+/// Of sum over bricks of w |y - mean(y) - shape|^2, over two, with rows of held nodes like those of the identity.
+std::shared_ptr<RotatedStep::System> RotatedStep::factorized(int axis) const {
+  const auto is_held = [&](int node) { return supports_.fixed[3 * std::size_t(node) + axis]; };
+  for (int other = 0; other < axis; ++other) {
+    bool is_same = systems_[other] != nullptr;
+    for (int node = 0; is_same && node < body_.node_count(); ++node) {
+      is_same = is_held(node) == supports_.fixed[3 * std::size_t(node) + other];
+    }
+    if (is_same) return systems_[other];
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < body_.node_count(); ++node) entries.emplace_back(node, node, is_held(node) ? 1 : kAnchor);
+  for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
+    const double weight = body_.stiffness_scale[brick];
+    for (const int row : body_.grid.nodes[brick]) {
+      for (const int column : body_.grid.nodes[brick]) {
+        if (column > row || is_held(row) || is_held(column)) continue;
+        entries.emplace_back(row, column, weight * (row == column ? 7.0 / 8 : -1.0 / 8));
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(body_.node_count(), body_.node_count());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  auto system = std::make_shared<System>();
+  system->compute(matrix);
+  return system;
+}
+
+}  // namespace sprung
