@@ -126,8 +126,9 @@ TEST_F(Load, SlidesHoldAcrossTheirPlaneOnly) {
   EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, where it is not quite uniform
 }
 
-/// Kirsch: three times the stress far away, at the hole. In a square plate ten times as wide as the hole, and as thick as
-/// half of it, it is 3.17 times in the middle plane (finite elements: plate_with_hole in tests/references/curved.json).
+/// Kirsch: three times the stress far away, at the hole. In a square plate ten times as wide as the hole, and as thick
+/// as half of it, it is 3.17 times in the middle plane (finite elements: plate_with_hole in
+/// tests/references/curved.json).
 TEST_F(Load, HoleInAPlateTriplesTheStress) {
   static_cast<void>(folder_.write("plate.obj", quarter_plate_obj()));
   const nlohmann::json made =
