@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/body/brick_model.h"
@@ -171,6 +172,12 @@ Eigen::VectorXd brick_energies(const Body& body, const std::vector<int>& bricks,
     energies[Eigen::Index(row)] = model.energy(body, brick, at_corners(body, brick, positions));
   });
   return energies;
+}
+
+double energy_rounding(const Body& body) {
+  const Eigen::Map<const Eigen::VectorXd> scales(body.stiffness_scale.data(),
+                                                 Eigen::Index(body.stiffness_scale.size()));
+  return 4 * std::numeric_limits<double>::epsilon() * body.material.young * body.grid.brick_volume() * scales.norm();
 }
 
 double corner_force_sum(const Body& body) {

@@ -212,7 +212,9 @@ bool ImplicitBody::has_converged() const {
   return forces_.norm() <= std::max(options_.tolerance * work_, rounding);
 }
 
-double ImplicitBody::noise() const { return std::numeric_limits<double>::epsilon() * work_ * size_; }
+double ImplicitBody::noise() const {
+  return std::numeric_limits<double>::epsilon() * work_ * size_ + energy_rounding(body_);
+}
 
 bool ImplicitBody::settle_friction() {
   bool is_settled = true;

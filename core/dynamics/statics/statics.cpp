@@ -206,9 +206,9 @@ class Equilibrium {
     const double rotation = rotated_.largest_rotation(body_.positions, direction);
     const Points before = body_.positions;
     const double energy = potential();
-    // Close to the minimum the energy no longer resolves a step (what a rounded position costs in energy); a full
-    // Newton step is then right.
-    const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_));
+    // Close to the minimum the energy no longer resolves a step (what a rounded position costs, and how it is rounded
+    // itself); a full Newton step is then right.
+    const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_)) + energy_rounding(body_);
     for (double share = 1; share > 1e-8; share /= 2) {
       if (energy_after(before, share * direction, share * rotation) <= energy - 1e-4 * share * slope + noise) {
         return share;
