@@ -106,9 +106,12 @@ ConcurrentFilm::~ConcurrentFilm() {
 }
 
 void ConcurrentFilm::add(const World& world) {
-  for (const SoftBody& body : world.bodies) bounds_.extend(bounding_box(body.skin_positions(body.positions)));
+  const std::vector<Floats3> nodes = nodes_of(world);
+  for (std::size_t body = 0; body < nodes.size(); ++body) {
+    bounds_.extend(bounding_box(world.bodies[body].skin_positions(nodes[body].cast<double>())));
+  }
   if (is_foreseen(foreseen_, bounds_)) {
-    frames_.add(nodes_of(world));
+    frames_.add(nodes);
   } else {
     frames_.close();
   }
