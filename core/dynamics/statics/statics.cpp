@@ -118,7 +118,8 @@ double extent(const Body& body) {
 /// Newton's method at one load.
 class Equilibrium {
  public:
-  Equilibrium(Body& body, const Supports& supports, const Points& loads, LinearSolver& system,
+  /// `rotated`: of the body and these supports.
+  Equilibrium(Body& body, const Supports& supports, const Points& loads, LinearSolver& system, RotatedStep& rotated,
               const StaticOptions& options)
       : body_(body),
         supports_(supports),
@@ -126,7 +127,7 @@ class Equilibrium {
         system_(system),
         terms_(support_terms(supports)),
         options_(options),
-        rotated_(body, supports),
+        rotated_(rotated),
         rounding_(4 * std::numeric_limits<double>::epsilon() * extent(body)),
         rounding_force_(8 * largest_brick_stiffness(body) * rounding_) {}
 
@@ -257,7 +258,7 @@ class Equilibrium {
   LinearSolver& system_;
   const StepTerms terms_;
   const StaticOptions& options_;
-  RotatedStep rotated_;
+  RotatedStep& rotated_;
   double rounding_;        // of a position, m
   double rounding_force_;  // that it causes, N
   ForceWorkspace workspace_;
@@ -351,13 +352,14 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
     }
   };
   StaticReport report;
+  RotatedStep rotated(body, moving);
   body.positions = start;
   const double reached = raise_load(options, report, [&](double share) {
     const Points before = body.positions;
     move_supports(share);
     move_springs(share);
     const Points load = share * loads;
-    if (Equilibrium(body, moving, load, system, options).find(report)) return true;
+    if (Equilibrium(body, moving, load, system, rotated, options).find(report)) return true;
     body.positions = before;
     return false;
   });

@@ -32,33 +32,30 @@ struct Take {
   [[nodiscard]] bool says(const std::string& words) const { return run.err.find(words) != std::string::npos; }
 };
 
-TEST(ConcurrentFilm, IsThatOfOneProcess) {
-  const std::string words = "torus.ply' --duration 1s";
-  const Take concurrent(words, 3);
+/// Draws a film by several processes, expects the files of one alone, and returns how many pictures these are.
+/// `said`: what the several report.
+std::size_t expect_that_of_one_process(const std::string& words, int jobs, const std::string& said) {
+  const Take concurrent(words, jobs);
   const Take plain(words, 1);
-  EXPECT_TRUE(concurrent.says("drawn by 3 processes while it moves"));
-  EXPECT_TRUE(concurrent.says("of them while it moved"));
+  EXPECT_TRUE(concurrent.says(fmt::format("drawn by {} processes while it moves", jobs))) << concurrent.run.err;
+  EXPECT_TRUE(concurrent.says(said)) << concurrent.run.err;
   EXPECT_FALSE(plain.says("while it moves"));
-  EXPECT_EQ(plain.files().size(), 1U + 12);
   EXPECT_TRUE(concurrent.files() == plain.files());
+  return plain.files().size() - 1;
+}
+
+TEST(ConcurrentFilm, IsThatOfOneProcess) {
+  EXPECT_EQ(expect_that_of_one_process("torus.ply' --duration 1s", 3, "of them while it moved"), 12U);
 }
 
 TEST(ConcurrentFilm, IsDrawnAnewIfTheBodyLeavesItsView) {
   const std::string words = "torus.ply' --duration 1s --material gelatin --scenario tumble";
-  const Take concurrent(words, 2);
-  const Take plain(words, 1);
-  EXPECT_TRUE(concurrent.says("drawn anew"));
-  EXPECT_EQ(plain.files().size(), 1U + 12);
-  EXPECT_TRUE(concurrent.files() == plain.files());
+  EXPECT_EQ(expect_that_of_one_process(words, 2, "drawn anew"), 12U);
 }
 
 TEST(ConcurrentFilm, EndsWithAMotionThatEndsEarly) {
   const std::string words = "torus.ply' --material rubber --set until_still=0.5s --duration 6s";
-  const Take concurrent(words, 2);
-  const Take plain(words, 1);
-  EXPECT_TRUE(concurrent.says("of them while it moved"));
-  EXPECT_LT(plain.files().size(), 1U + 72);
-  EXPECT_TRUE(concurrent.files() == plain.files());
+  EXPECT_LT(expect_that_of_one_process(words, 2, "of them while it moved"), 72U);
 }
 
 TEST(ConcurrentFilm, WaitsForTheWholeMotionWhereColoursNeedIt) {
