@@ -102,19 +102,22 @@ bool has_no_doubles(const std::vector<Eigen::Vector3i>& ordered) {
 
 }  // namespace
 
-std::vector<std::vector<int>> layers_of(const BrickGrid& grid) {
-  if (has_no_doubles(grid.lattice)) {
-    std::vector<int> all(grid.cells.size());
-    std::iota(all.begin(), all.end(), 0);
-    return {std::move(all)};
-  }
+std::vector<int> all_bricks(const BrickGrid& grid) {
+  std::vector<int> all(grid.cells.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+std::vector<std::vector<int>> layers_of(const BrickGrid& grid, const std::vector<int>& bricks) {
+  if (bricks.empty()) return {};
+  if (has_no_doubles(grid.lattice)) return {bricks};
   Holders holders(grid.lattice);
   std::vector<std::vector<int>> layers;
-  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+  for (const int brick : bricks) {
     const std::size_t layer = holders.layer_for(grid.nodes[brick]);
     holders.put(layer, grid.nodes[brick]);
     if (layer == layers.size()) layers.emplace_back();
-    layers[layer].push_back(int(brick));
+    layers[layer].push_back(brick);
   }
   return layers;
 }
@@ -133,7 +136,8 @@ constexpr int kMaxBricks = 8192;  // of a tile
 constexpr int kMinDeep = 4;       // bricks along z, since planes between tiles are computed twice
 constexpr int kShortRow = 24;     // slots
 
-constexpr int kShared = -2;  // owner of nodes that more than one tile has
+constexpr int kNone = -1;    // owner of nodes that no tile has
+constexpr int kShared = -2;  // ... that more than one has
 
 Box bounds_of(const BrickGrid& grid, std::span<const int> bricks) {
   Box box{grid.cells[bricks.front()], grid.cells[bricks.front()]};
@@ -176,9 +180,8 @@ std::vector<std::vector<int>> cut(const BrickGrid& grid, const std::vector<int>&
   return tiles;
 }
 
-/// The tile that has a node, or kShared.
+/// The tile that has a node, or kShared, or kNone.
 std::vector<int> owners_of(const BrickGrid& grid, const std::vector<std::vector<int>>& tiles) {
-  constexpr int kNone = -1;
   std::vector<int> owners(grid.lattice.size(), kNone);
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
     for (const int brick : tiles[tile]) {
@@ -386,13 +389,23 @@ void join_parts(BrickTiles& tiles) {
   }
 }
 
+/// Nodes that no tile has are shared ones without parts.
+void add_others(const std::vector<int>& owners, BrickTiles& tiles) {
+  for (int node = 0; node < isize(owners); ++node) {
+    if (owners[node] != kNone) continue;
+    const int first = node;
+    while (node + 1 < isize(owners) && owners[node + 1] == kNone) ++node;
+    tiles.shared.push_back({first, node + 1 - first, 0, 0});
+  }
+}
+
 }  // namespace
 
-BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces) {
+BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<int>& tiled, const PackNumbers& numbers,
+                            const FaceShares& faces) {
   BrickTiles result;
-  if (grid.cells.empty()) return result;
   std::vector<std::vector<int>> tiles;
-  for (const std::vector<int>& layer : layers_of(grid)) {
+  for (const std::vector<int>& layer : layers_of(grid, tiled)) {
     for (std::vector<int>& tile : cut(grid, layer)) tiles.push_back(std::move(tile));
   }
   const std::vector<int> owners = owners_of(grid, tiles);
@@ -401,6 +414,7 @@ BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, c
                     [&](std::size_t i) { made[i] = TileMaker(grid, numbers, faces, tiles[i]).make(owners); });
   for (MadeTile& one : made) add(std::move(one), result);
   join_parts(result);
+  add_others(owners, result);
   return result;
 }
 
@@ -413,7 +427,7 @@ BrickTiles make_spring_tiles(const BrickGrid& grid, const std::vector<double>& s
     }
     return pack;
   };
-  return make_brick_tiles(grid, numbers, faces);
+  return make_brick_tiles(grid, all_bricks(grid), numbers, faces);
 }
 
 }  // namespace sprung

@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
+#include "core/body/gathered_bricks.h"
 #include "core/body/kernel/tile_kernel.h"
 #include "core/bricks/brick_grid.h"
 
@@ -21,10 +21,13 @@ struct FaceShares {
 /// within a row.
 [[nodiscard]] FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares);
 
-/// Sets of bricks that share no cell and whose nodes share no lattice point, as rows of the grid, ascending. Most grids
-/// are a single layer; if parts of a body pass through the same cells, there are several. Every brick is in one. Cost:
-/// linear in the bricks.
-[[nodiscard]] std::vector<std::vector<int>> layers_of(const BrickGrid& grid);
+/// Sets of these bricks that share no cell and whose nodes share no lattice point, as rows of the grid, ascending. Most
+/// grids are a single layer; if parts of a body pass through the same cells, there are several. Every brick is in one.
+/// Cost: linear in the bricks.
+[[nodiscard]] std::vector<std::vector<int>> layers_of(const BrickGrid& grid, const std::vector<int>& bricks);
+
+/// All rows of the grid.
+[[nodiscard]] std::vector<int> all_bricks(const BrickGrid& grid);
 
 /// A part of a body's bricks for one thread at a time, see TileView.
 struct BrickTile {
@@ -41,9 +44,6 @@ struct BrickTile {
   }
 };
 
-/// The kernel's parameters of kPackPadding bricks side by side (-1: none), see TileView::shares.
-using PackNumbers = std::function<std::vector<double>(const std::array<int, kPackPadding>& bricks)>;
-
 /// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The tiles and the order
 /// of every sum depend on the bricks alone, not on the number of threads.
 struct BrickTiles {
@@ -51,11 +51,13 @@ struct BrickTiles {
   std::vector<SharedNodes> shared;
   std::vector<SharedPart> parts;
   std::size_t shared_size = 0;  // doubles
+  GatheredBricks gathered;
 };
 
-/// `faces`: for springs only, else empty. Several bricks and nodes may coincide. Cost: linear in the boxes around the
-/// tiles.
-[[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces);
+/// Tiles for the bricks in `tiled`, ascending; nodes of others are shared ones without parts. `faces`: for springs
+/// only, else empty. Several bricks and nodes may coincide. Cost: linear in the boxes around the tiles.
+[[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<int>& tiled,
+                                          const PackNumbers& numbers, const FaceShares& faces);
 
 /// Tiles for springs. `stiffness_scale` per brick: its stiffness in multiples of a full brick's, above 0.
 [[nodiscard]] BrickTiles make_spring_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale);

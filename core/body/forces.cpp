@@ -17,7 +17,8 @@ namespace sprung {
 namespace {
 
 constexpr int kSharedPerTask = 256;  // rows
-constexpr int kFewBricks = 4000;     // faster on one thread than waking another
+constexpr std::size_t kPacksPerTask = 32;
+constexpr int kFewBricks = 4000;  // faster on one thread than waking another
 
 KernelInput input_of(const Body& body, KernelTask task) {
   KernelInput input;
@@ -49,11 +50,22 @@ void each(std::size_t count, std::size_t per_task, const Visit& visit) {
 
 }  // namespace
 
-void SpringSystem::run(const Body& body, const KernelInput& input) {
+void SpringSystem::run(const Body& body, KernelInput input) {
   const BrickTiles& tiles = *body.tiles;
-  const std::size_t tiles_per_task = body.grid.brick_count() < kFewBricks ? tiles.tiles.size() : 1;
+  const bool is_small = body.grid.brick_count() < kFewBricks;
+  const std::size_t packs = tiles.gathered.packs.size();
+  const std::size_t pack_groups = (packs + kPacksPerTask - 1) / kPacksPerTask;
+  energies_.assign(tiles.tiles.size() + pack_groups, {});
+  gathered_.resize(kGatheredForces * packs);
+  input.gathered = tiles.gathered.view(gathered_.data());
+  each(pack_groups, is_small ? pack_groups : 1, [&](std::size_t group) {
+    const std::size_t last = std::min(packs, (group + 1) * kPacksPerTask);
+    for (std::size_t pack = group * kPacksPerTask; pack < last; ++pack) {
+      kernel_.gathered(input, int(pack), energies_[tiles.tiles.size() + group]);
+    }
+  });
+  const std::size_t tiles_per_task = is_small ? tiles.tiles.size() : 1;
   shared_.resize(tiles.shared_size);
-  energies_.assign(tiles.tiles.size(), {});
   scratch_.resize(tbb::this_task_arena::max_concurrency());
   each(tiles.tiles.size(), tiles_per_task, [&](std::size_t i) {
     const BrickTile& tile = tiles.tiles[i];

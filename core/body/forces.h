@@ -41,7 +41,7 @@ class SpringSystem {
   void move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses);
 
  private:
-  void run(const Body& body, const KernelInput& input);
+  void run(const Body& body, KernelInput input);
   void run_product(const Body& body, KernelInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
   /// Scratch in whole cache lines: a pack that straddles two costs twice as much.
@@ -51,7 +51,8 @@ class SpringSystem {
 
   SpringKernel kernel_;
   std::vector<double> shared_;                   // forces
-  std::vector<EnergyLanes> energies_;            // per tile
+  std::vector<double> gathered_;                 // likewise, of gathered bricks
+  std::vector<EnergyLanes> energies_;            // per tile, then per group of packs
   std::vector<std::vector<CacheLine>> scratch_;  // per thread
 };
 

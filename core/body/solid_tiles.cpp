@@ -54,6 +54,37 @@ std::vector<double> numbers_of(const Body& body, const std::array<int, kPackPadd
   return pack;
 }
 
+/// Whether a whole brick is followed by another along x.
+bool goes_on(const Body& body, int brick) {
+  const BrickGrid& grid = body.grid;
+  return brick + 1 < grid.brick_count() && is_whole(body, brick + 1) &&
+         grid.cells[brick + 1] == grid.cells[brick] + Eigen::Vector3i::UnitX();
+}
+
+constexpr int kShortRow = 8;  // whole bricks along x, from which on a tile is faster than gathering them
+
+/// Bricks, ascending: of tiles, and other whole and cut ones.
+struct Division {
+  std::vector<int> tiled;
+  std::vector<int> whole;
+  std::vector<int> cut;
+};
+
+Division divide(const Body& body) {
+  Division division;
+  for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+    if (!is_whole(body, brick)) {
+      division.cut.push_back(brick);
+      continue;
+    }
+    const int first = brick;
+    while (goes_on(body, brick)) ++brick;
+    std::vector<int>& to = brick + 1 - first < kShortRow ? division.whole : division.tiled;
+    for (int one = first; one <= brick; ++one) to.push_back(one);
+  }
+  return division;
+}
+
 }  // namespace
 
 SolidLaw solid_law(const Material& material, double h) {
@@ -72,7 +103,10 @@ SolidLaw solid_law(const Material& material, double h) {
 
 BrickTiles make_solid_tiles(const Body& body) {
   const auto numbers = [&](const std::array<int, kPackPadding>& bricks) { return numbers_of(body, bricks); };
-  return make_brick_tiles(body.grid, numbers, {});
+  const Division division = divide(body);
+  BrickTiles tiles = make_brick_tiles(body.grid, division.tiled, numbers, {});
+  tiles.gathered = gather_bricks(body.grid, {division.whole, division.cut}, numbers);
+  return tiles;
 }
 
 void solid_matrices(const Body& body, int first, double* matrices, const SpringKernel& kernel) {

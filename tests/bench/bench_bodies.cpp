@@ -60,7 +60,11 @@ double size_of(const BrickTiles& tiles) {
   for (const BrickTile& tile : tiles.tiles) {
     sum += size_of(tile.runs) + size_of(tile.first_run) + size_of(tile.shares) + size_of(tile.packs);
   }
-  return sum + double((tiles.shared_size + kScratchSize) * sizeof(double));
+  const GatheredBricks& gathered = tiles.gathered;
+  sum += size_of(gathered.numbers) + size_of(gathered.packs) + size_of(gathered.corners) +
+         size_of(gathered.first_force) + size_of(gathered.force_places);
+  const std::size_t forces = kGatheredForces * gathered.packs.size();
+  return sum + double((tiles.shared_size + kScratchSize + forces) * sizeof(double));
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 /// (StrainDifferences) are products of two of these vectors, without a square root.
 using TrilinearMap = std::array<Pack3, 8>;
 
-[[nodiscard]] [[gnu::always_inline]] inline TrilinearMap trilinear_map(const BrickRows& rows, int values) {
+/// `corners.three(values, corner)` are their positions, or what else there is of them.
+template <class Corners>
+[[nodiscard]] [[gnu::always_inline]] inline TrilinearMap trilinear_map(const Corners& corners, int values) {
   TrilinearMap in_plane;
 #pragma GCC unroll 2
   for (std::size_t z = 0; z < 2; ++z) {
-    const PlaneView low = rows[2 * z];
-    const PlaneView high = rows[2 * z + 1];
-    const Pack3 x0 = low.three(values);
-    const Pack3 x1 = low.three(values, 1);
-    const Pack3 x2 = high.three(values);
-    const Pack3 x3 = high.three(values, 1);
+    const Pack3 x0 = corners.three(values, 4 * z);
+    const Pack3 x1 = corners.three(values, 4 * z + 1);
+    const Pack3 x2 = corners.three(values, 4 * z + 2);
+    const Pack3 x3 = corners.three(values, 4 * z + 3);
     const Pack3 low_sum = x1 + x0;
     const Pack3 low_way = x1 - x0;
     const Pack3 high_sum = x3 + x2;
@@ -45,7 +45,8 @@ using TrilinearMap = std::array<Pack3, 8>;
 }
 
 /// Adds corner forces: `pull[n]` contributes to each with the sign of s^n there.
-[[gnu::always_inline]] inline void give_corners(const TrilinearMap& pull, const BrickRows& rows) {
+template <class Corners>
+[[gnu::always_inline]] inline void give_corners(const TrilinearMap& pull, const Corners& corners) {
 #pragma GCC unroll 2
   for (std::size_t z = 0; z < 2; ++z) {
     const auto in_plane = [&](std::size_t n) __attribute__((always_inline)) {
@@ -60,12 +61,25 @@ using TrilinearMap = std::array<Pack3, 8>;
     for (std::size_t high_y = 0; high_y < 2; ++high_y) {
       const Pack3 both = high_y == 0 ? all - y : all + y;
       const Pack3 way = high_y == 0 ? x - xy : x + xy;
-      const PlaneView row = rows[2 * z + high_y];
-      row.set_three(kForceLow, row.three(kForceLow) + (both - way));
-      row.set_three(kForceHigh, row.three(kForceHigh) + (both + way));
+      corners.add(4 * z + 2 * high_y, both - way);
+      corners.add(4 * z + 2 * high_y + 1, both + way);
     }
   }
 }
+
+/// Corners of a pack of neighbours in a tile.
+struct TileCorners {
+  BrickRows rows;
+
+  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, std::size_t corner) const {
+    return rows[corner / 2].three(array, int(corner % 2));
+  }
+  [[gnu::always_inline]] void add(std::size_t corner, const Pack3& force) const {
+    const PlaneView row = rows[corner / 2];
+    const int array = corner % 2 == 0 ? kForceLow : kForceHigh;
+    row.set_three(array, row.three(array) + force);
+  }
+};
 
 /// Products of two vectors of the map; each difference is a sum of two of them.
 inline constexpr std::array<std::pair<int, int>, 18> kProducts{{{1, 3},
@@ -144,8 +158,7 @@ template <bool kCut>
 }
 
 /// The kernel's parameters of eight bricks. Whole ones: their stiffness in multiples of the body's full brick, by
-/// material and fill. If one of them is cut: a negative number, then the same and the parameters of its solid, see
-/// SolidNumber.
+/// material and fill. Cut ones: a negative number, then the same and the parameters of their solid, see SolidNumber.
 template <bool kCut>
 class SolidNumbers {
  public:
@@ -164,8 +177,9 @@ class PackOfSolids {
  public:
   [[gnu::always_inline]] PackOfSolids(const SolidLaw& law, const double* own) : law_(law), numbers_(own) {}
 
-  [[gnu::always_inline]] void pull(const BrickRows& rows, double beta) const {
-    const TrilinearMap map = trilinear_map(rows, kPosition);
+  template <class Corners>
+  [[gnu::always_inline]] void pull(const Corners& corners, double beta) const {
+    const TrilinearMap map = trilinear_map(corners, kPosition);
     const Differences z = differences(map);
     const Gradient f = secant(map);
     const Shear shear = shear_of(z);
@@ -174,7 +188,7 @@ class PackOfSolids {
     Gradient stress{};
     if constexpr (kPart != Part::kDamping) stress = elastic_stress(gradient);
     if constexpr (is_damped(kPart)) {
-      const TrilinearMap moves = trilinear_map(rows, kVelocity);
+      const TrilinearMap moves = trilinear_map(corners, kVelocity);
       const Differences change = changes(map, moves);
       Gradient rate = bent<kCut>(secant(moves), shear);
       if constexpr (kCut) rate = rate + sheared(f, shear_of(change));
@@ -191,12 +205,13 @@ class PackOfSolids {
     if constexpr (kCut) add_shear_force(f, stress, force);
     TrilinearMap pull = secant_pull(bent<kCut>(stress, shear));
     add_pull(map, force, pull);
-    give_corners(pull, rows);
+    give_corners(pull, corners);
   }
 
   /// The second derivative times the displacements stored in place of velocities.
-  [[gnu::always_inline]] void multiply(const BrickRows& rows) const {
-    give_corners(product(state(trilinear_map(rows, kPosition)), trilinear_map(rows, kVelocity)), rows);
+  template <class Corners>
+  [[gnu::always_inline]] void multiply(const Corners& corners) const {
+    give_corners(product(state(trilinear_map(corners, kPosition)), trilinear_map(corners, kVelocity)), corners);
   }
 
   /// The quantities that determine the second derivative.
@@ -257,8 +272,9 @@ class PackOfSolids {
     return pull;
   }
 
-  [[nodiscard]] [[gnu::always_inline]] Pack energy(const BrickRows& rows) const {
-    const TrilinearMap map = trilinear_map(rows, kPosition);
+  template <class Corners>
+  [[nodiscard]] [[gnu::always_inline]] Pack energy(const Corners& corners) const {
+    const TrilinearMap map = trilinear_map(corners, kPosition);
     const Differences z = differences(map);
     const Gradient f = bent<kCut>(secant(map), shear_of(z));
     const Pack volume = dot(f.x, cross(f.y, f.z));
@@ -477,30 +493,70 @@ class PackOfSolids {
   SolidNumbers<kCut> numbers_;
 };
 
-/// Bricks of a run.
+/// What a part asks of a pack; `first`: of the lanes for the energy.
+template <Part kPart, bool kCut, class Corners>
+[[gnu::always_inline]] inline void act(const PackOfSolids<kPart, kCut>& bricks, const Corners& corners, double beta,
+                                       int first, Energy& energy) {
+  if constexpr (kPart == Part::kEnergy) {
+    add_energy(energy, first, bricks.energy(corners));
+  } else if constexpr (kPart == Part::kProduct) {
+    bricks.multiply(corners);
+  } else {
+    bricks.pull(corners, beta);
+  }
+}
+
+/// Bricks of a run, all whole.
 template <Part kPart>
 void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const RunPart& part, const TileView& tile,
                Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
-    const BrickRows here = rows.seen_from(part.run.index + i);
+    const TileCorners here{rows.seen_from(part.run.index + i)};
     const double* own = tile.shares + tile.packs[part.run.first + i / kPackPadding] + i % kPackPadding;
-    const auto act = [&](const auto& bricks) __attribute__((always_inline)) {
-      if constexpr (kPart == Part::kEnergy) {
-        add_energy(energy, i, bricks.energy(here));
-      } else if constexpr (kPart == Part::kProduct) {
-        bricks.multiply(here);
-      } else {
-        bricks.pull(here, beta);
-      }
-    };
+    act(PackOfSolids<kPart, false>(law, own), here, beta, i, energy);
+  }
+}
+
+/// Corners of a pack of any bricks.
+struct GatheredCorners {
+  const KernelInput& input;
+  const int* places;  // of the first corner's x
+  double* forces;
+
+  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, std::size_t corner) const {
+    const int* from = places + corner * kPackPadding;
+    if (array == kVelocity) return gathered(input.velocities, from);
+    const Pack3 positions = gathered(input.positions, from);
+    return input.drift == 0 ? positions : positions + Pack(input.drift) * gathered(input.velocities, from);
+  }
+  [[gnu::always_inline]] void add(std::size_t corner, const Pack3& force) const {
+    double* to = forces + 3 * kPackPadding * corner;
+    store(force.x, to);
+    store(force.y, to + kPackPadding);
+    store(force.z, to + 2 * kPackPadding);
+  }
+
+ private:
+  [[nodiscard]] [[gnu::always_inline]] static Pack3 gathered(const double* values, const int* from) {
+    return {Pack([&](auto lane) { return values[from[lane]]; }),
+            Pack([&](auto lane) { return values[from[lane] + 1]; }),
+            Pack([&](auto lane) { return values[from[lane] + 2]; })};
+  }
+};
+
+/// A pack of gathered bricks.
+template <Part kPart>
+void gathered_pack(const KernelInput& input, int pack, Energy& energy) {
+  const GatheredView& gathered = input.gathered;
+  const double* own = gathered.numbers + gathered.packs[pack];
+  const int* places = gathered.corners + std::ptrdiff_t(8 * kPackPadding) * pack;
+  double* forces = gathered.forces + std::ptrdiff_t(kGatheredForces) * pack;
+  for (int i = 0; i < kPackPadding; i += kLanes) {
+    const GatheredCorners here{input, places + i, forces + i};
     if (*own < 0) {
-      // Of a large body they come from memory, too few pages at a time for the hardware prefetcher.
-      const double* next = own + kSolidNumbers * kPackPadding;
-#pragma GCC unroll 4
-      for (int line = 0; line < kSolidNumbers; ++line) __builtin_prefetch(next + line * kPackPadding);
-      act(PackOfSolids<kPart, true>(law, own));
+      act(PackOfSolids<kPart, true>(input.solid, own + i), here, input.beta, i, energy);
     } else {
-      act(PackOfSolids<kPart, false>(law, own));
+      act(PackOfSolids<kPart, false>(input.solid, own + i), here, input.beta, i, energy);
     }
   }
 }

@@ -196,7 +196,9 @@ class Walk {
     exit.edges.go_to(whole, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
     exit.nodes.go_to(whole, [&](const RunPart& part) {
       const Three<double> forces = three(from, kForceLow, part.index());
-      finish_nodes(input_, part.run.node + part.begin, part.count(), {forces.x, forces.y, forces.z});
+      const int node = part.run.node + part.begin;
+      add_gathered_forces(input_.gathered, node, part.count(), forces);
+      finish_nodes(input_, node, part.count(), {forces.x, forces.y, forces.z});
     });
     exit.shared_nodes.go_to(whole, [&](const RunPart& part) {
       double* sums = shared_ + part.run.first + part.begin;
@@ -232,19 +234,28 @@ class Walk {
   BrickSprings springs_;
 };
 
+/// Calls visit(part) with the part of the law, a constant, that a task needs.
+template <class Visit>
+void with_part_of(const KernelInput& input, const Visit& visit) {
+  const auto with = [&]<Part kPart>() { visit(std::integral_constant<Part, kPart>()); };
+  if (input.task == KernelTask::kEnergy) return with.template operator()<Part::kEnergy>();
+  if (input.task == KernelTask::kProduct) return with.template operator()<Part::kProduct>();
+  if (input.task == KernelTask::kDamping) return with.template operator()<Part::kDamping>();
+  if (input.beta > 0) return with.template operator()<Part::kElasticAndDamping>();
+  with.template operator()<Part::kElastic>();
+}
+
 template <Layout kLayout>
 void walk(const TileView& tile, const KernelInput& input, double* scratch, double* shared, Energy& energy) {
-  if (input.task == KernelTask::kEnergy) {
-    Walk<kLayout, Part::kEnergy>(tile, input, scratch, shared, energy).run();
-  } else if (input.task == KernelTask::kProduct) {
-    if constexpr (kLayout.solid) Walk<kLayout, Part::kProduct>(tile, input, scratch, shared, energy).run();
-  } else if (input.task == KernelTask::kDamping) {
-    Walk<kLayout, Part::kDamping>(tile, input, scratch, shared, energy).run();
-  } else if (input.beta > 0) {
-    Walk<kLayout, Part::kElasticAndDamping>(tile, input, scratch, shared, energy).run();
-  } else {
-    Walk<kLayout, Part::kElastic>(tile, input, scratch, shared, energy).run();
-  }
+  with_part_of(input, [&](auto part) {
+    if constexpr (kLayout.solid || part != Part::kProduct) {
+      Walk<kLayout, part>(tile, input, scratch, shared, energy).run();
+    }
+  });
+}
+
+void run_gathered(const KernelInput& input, int pack, Energy& energy) {
+  with_part_of(input, [&](auto part) { gathered_pack<part>(input, pack, energy); });
 }
 
 /// One kernel for solid bricks and for each layout of springs, which follows from the zeros of the law.
@@ -264,7 +275,8 @@ void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const doub
   for (int done = 0; done < nodes.count; done += kSharedAtOnce) {
     const int first = nodes.node + done;
     const int last = first + std::min(kSharedAtOnce, nodes.count - done);
-    std::array<std::array<double, kSharedAtOnce>, 3> sums{};
+    std::array<std::array<double, kSharedAtOnce>, 3> sums;
+    for (auto& sum : sums) std::fill_n(sum.begin(), last - first, 0.0);
     for (std::size_t i = nodes.first_part; i < nodes.last_part; ++i) {
       const SharedPart& part = parts[i];
       const int begin = std::max(first, part.node);
@@ -274,6 +286,7 @@ void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const doub
         add_rates(&sums[axis][begin - first], from, 1, end - begin);
       }
     }
+    add_gathered_forces(input.gathered, first, last - first, {sums[0].data(), sums[1].data(), sums[2].data()});
     finish_nodes(input, first, last - first, {sums[0].data(), sums[1].data(), sums[2].data()});
   }
 }
@@ -283,6 +296,7 @@ void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const doub
 SpringKernel spring_kernel() {
   return {.name = SPRUNG_NAME_OF(SPRUNG_INSTRUCTION_SET),
           .tile = run_tile,
+          .gathered = run_gathered,
           .shared = finish_shared,
           .solid_matrices = solid_matrices};
 }

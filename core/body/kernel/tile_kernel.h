@@ -57,7 +57,7 @@ struct SharedPart {
   std::size_t offset;  // in the shared forces
 };
 
-/// Neighbouring shared nodes and the parts that cover them, in a fixed order.
+/// Neighbouring shared nodes and the parts that cover them, in a fixed order; none cover nodes without a tile.
 struct SharedNodes {
   int node;  // first
   int count;
@@ -91,8 +91,8 @@ struct SolidLaw {
   double warping = 0;
 };
 
-/// The parameters of a pack of solid bricks if one of them is cut, kPackPadding each, preceded by -1; a pack of whole
-/// bricks has only their shares.
+/// The parameters of a pack of cut solid bricks, kPackPadding each, preceded by -1; a pack of whole bricks has only
+/// their shares.
 enum SolidNumber : int {
   kSolidIsCut = 0,
   kSolidShare = 1,      // stiffness in multiples of the body's full brick, by material and fill
@@ -102,6 +102,18 @@ enum SolidNumber : int {
   kSolidTangent = 53,   // CurvedSolid's, row by row
   kSolidNumbers = 80
 };
+
+/// Solid bricks in packs of any kPackPadding of them, which gather their corners from the body's nodes: cut ones, and
+/// rows too short for a tile. Their forces are stored corner by corner and summed node by node, in a fixed order.
+struct GatheredView {
+  const double* numbers = nullptr;   // see SolidNumber; slots without a brick have zeros
+  const int* packs = nullptr;        // the offset of each pack's
+  const int* corners = nullptr;      // of each pack: 8 * kPackPadding places of x in positions, corner by corner
+  const int* first_force = nullptr;  // by node, into force_places; null: there are no such bricks
+  const int* force_places = nullptr;
+  double* forces = nullptr;  // kGatheredForces a pack; y and z of a force follow its x after kPackPadding each
+};
+inline constexpr int kGatheredForces = 24 * kPackPadding;
 
 enum class KernelTask {
   kForces,   // writes the springs' forces, N
@@ -127,6 +139,7 @@ struct KernelInput {
   double kick = 0;                         // s; kMove
   double keep = 1;                         // 1 - kick * alpha
   std::array<double, 3> gravity_kick{};    // kick * gravity, m/s
+  GatheredView gathered;                   // their forces are complete when the nodes are finished
 };
 
 /// Partial sums of energy, J: each lane always sums the same bricks.
@@ -136,6 +149,9 @@ using EnergyLanes = std::array<double, kPackPadding>;
 /// to `shared`. `scratch` holds kScratchSize finite numbers. The energy is added lane by lane.
 using TileKernel = void (*)(const TileView& tile, const KernelInput& input, double* scratch, double* shared,
                             EnergyLanes& energy);
+
+/// Computes one pack of input.gathered. The energy is added lane by lane.
+using GatheredKernel = void (*)(const KernelInput& input, int pack, EnergyLanes& energy);
 
 /// Sums the contributions to the forces on shared nodes and finishes those nodes.
 using SharedNodesKernel = void (*)(const SharedNodes& nodes, const SharedPart* parts, const double* shared,
@@ -150,6 +166,7 @@ using SolidMatrices = void (*)(const SolidLaw& law, const double* own, const dou
 struct SpringKernel {
   const char* name = "";
   TileKernel tile = nullptr;
+  GatheredKernel gathered = nullptr;
   SharedNodesKernel shared = nullptr;
   SolidMatrices solid_matrices = nullptr;
 };

@@ -87,6 +87,20 @@ inline void add_rates(double* __restrict values, const double* __restrict rates,
   for (int i = 0; i < count; ++i) values[i] += factor * rates[i];
 }
 
+/// Adds the forces of gathered bricks on nodes.
+inline void add_gathered_forces(const GatheredView& gathered, int node, int count, const Three<double>& forces) {
+  if (gathered.first_force == nullptr) return;
+  const int* first = gathered.first_force + node;
+  for (int i = 0; i < count; ++i) {
+    for (int entry = first[i]; entry < first[i + 1]; ++entry) {
+      const double* force = gathered.forces + gathered.force_places[entry];
+      forces.x[i] += force[0];
+      forces.y[i] += force[kPackPadding];
+      forces.z[i] += force[2 * kPackPadding];
+    }
+  }
+}
+
 /// Finishes nodes once their forces are known.
 inline void finish_nodes(const KernelInput& input, int node, int count, const Three<const double>& forces) {
   const std::ptrdiff_t first = 3 * std::ptrdiff_t(node);

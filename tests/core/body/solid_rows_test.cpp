@@ -15,8 +15,8 @@ namespace {
 using test::shake;
 using test::test_material;
 
-/// Whole bricks, bricks of which only the fill is known, and cut ones, in packs of their own and mixed, with holes
-/// between them; two materials; strongly deformed, some inverted, and in motion.
+/// Whole bricks, in long and short rows, bricks of which only the fill is known, and cut ones, with holes between them;
+/// two materials; strongly deformed, some inverted, and in motion.
 Body ragged_solid(double poisson) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> between(-1, 1);
@@ -84,6 +84,20 @@ TEST(SolidRows, PullLikeTheirBricks) {
         EXPECT_LT(largest(forces - expected), 1e-13 * largest(expected)) << poisson << ' ' << beta << kernel.name;
       }
     }
+  }
+}
+
+TEST(SolidRows, AreLongRowsOfWholeBricksAndTheOthersAreGathered) {
+  const Body body = ragged_solid(0.3);
+  const BrickTiles& tiles = *body.tiles;
+  std::vector<bool> is_cut;
+  for (const int pack : tiles.gathered.packs) is_cut.push_back(tiles.gathered.numbers[pack] < 0);
+  EXPECT_FALSE(tiles.tiles.empty());
+  EXPECT_NE(std::find(is_cut.begin(), is_cut.end(), false), is_cut.end());
+  EXPECT_NE(std::find(is_cut.begin(), is_cut.end(), true), is_cut.end());
+  EXPECT_TRUE(std::is_sorted(is_cut.begin(), is_cut.end()));
+  for (const BrickTile& tile : tiles.tiles) {
+    for (const double share : tile.shares) EXPECT_GE(share, 0);
   }
 }
 
