@@ -11,6 +11,7 @@
 
 #include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "core/simulation/body_source.h"
@@ -22,6 +23,7 @@ namespace {
 constexpr int kBricks = 16;           // along the longest side,
 constexpr double kManyBricks = 1500;  // but not many more than these in all, since compact bodies need no fine ones
 constexpr double kManyBricksInFilm = 2500;
+constexpr double kManyBrickSteps = 6e7;  // explicit ones, for a second of film
 constexpr double kSag = 0.04;
 constexpr double kOverload = 2;              // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;      // times the displacement, at most
@@ -56,10 +58,17 @@ double count_of_bricks(const std::vector<BrickGrid>& grids) {
   return count;
 }
 
-/// Along the longest side, so that a film takes seconds; `count`: of bricks where kBricks are along it.
-int bricks_for_film(double count) {
-  const double most = kBricks * std::cbrt(kManyBricksInFilm / count);
-  return std::clamp(int(most), kBricks * 3 / 4, kDefaultBricks);
+/// Along the longest side, so that a film takes seconds. `count` and `steps`: bricks, and explicit steps for a second
+/// of film, where kBricks are along it.
+int bricks_for_film(double count, double steps) {
+  const double by_count = std::cbrt(kManyBricksInFilm / count);
+  const double by_steps = std::pow(kManyBrickSteps / (count * steps), 0.25);
+  return std::clamp(int(kBricks * std::min(by_count, by_steps)), kBricks * 3 / 4, kDefaultBricks);
+}
+
+/// The speed of pressure waves, m/s.
+double wave_speed(const Material& material) {
+  return std::sqrt((material.lame_lambda() + 2 * material.shear_modulus()) / material.density);
 }
 
 /// The solids of a body with bricks of that size.
@@ -142,6 +151,16 @@ class StandingBody {
     return largest;
   }
 
+  /// s, at rest and at full size.
+  [[nodiscard]] double stable_step() {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (Body& body : solids_) {
+      body.positions = body.rest_positions;
+      shortest = std::min(shortest, sprung::stable_step(body));
+    }
+    return shortest;
+  }
+
   /// The largest displacement of a node, m, if the body keeps its shape: it is no more than `most`, and a single solid
   /// does not lean so far that it would topple.
   std::optional<double> carried_displacement(double weight, double most) {
@@ -204,7 +223,8 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
   const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
   std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size, body.model);
   const double count = count_of_bricks(grids);
-  if (count > kManyBricks) grids = filled(loaded, loaded.brick_size * std::cbrt(count / kManyBricks), body.model);
+  const double coarser = std::max(1.0, std::cbrt(count / kManyBricks));
+  if (coarser > 1) grids = filled(loaded, loaded.brick_size * coarser, body.model);
   StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support, body.pins,
                         Selector(loaded), world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.displacement(1, true);
@@ -224,8 +244,11 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
     };
     const auto softest = std::partition_point(materials.begin(), materials.end(), fails);
     if (softest == materials.end()) continue;
-    return SupportingMaterial{
-        .material = *softest, .size = scale * size, .sag = sag / size, .bricks = bricks_for_film(count)};
+    const double faster = wave_speed((*softest)->material()) / wave_speed(reference.material()) / scale;
+    return SupportingMaterial{.material = *softest,
+                              .size = scale * size,
+                              .sag = sag / size,
+                              .bricks = bricks_for_film(count, coarser * faster / standing.stable_step())};
   }
   return std::nullopt;
 }

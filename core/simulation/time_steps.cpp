@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kManySteps = 20000;  // per frame, from which on there is a warning
 // Cost of an implicit step, in explicit steps.
-constexpr double kFreeCost = 120;      // of bodies without contact, or hanging
-constexpr double kObstacleCost = 300;  // of those that may come to lie on obstacles
-constexpr double kCoupledCost = 600;   // of bodies that may collide or are glued
+constexpr double kFreeCost = 200;       // of bodies without contact, or hanging
+constexpr double kObstacleCost = 500;   // of those that may come to lie on obstacles
+constexpr double kCoupledCost = 1000;   // of bodies that may collide or are glued
+constexpr double kNodesPerBrick = 1.4;  // of the compact bodies that these are of; thin ones have up to 4
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit steps per frame
 constexpr long kMaxSteps = 16;
@@ -37,12 +38,27 @@ long implicit_steps(const World& world, double frame) {
   return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMaxSteps);
 }
 
-double implicit_cost(const World& world) {
+/// How much more an implicit step costs where bodies are thin: Newton's method and multigrid then need several times
+/// the iterations.
+double thinness_cost(const World& world) {
+  double nodes = 0;
+  double bricks = 0;
+  for (const SoftBody& body : world.bodies) {
+    nodes += body.node_count();
+    bricks += body.grid.brick_count();
+  }
+  const double thinness = nodes / (kNodesPerBrick * std::max(bricks, 1.0));
+  return std::max(1.0, thinness * thinness);
+}
+
+double contact_cost(const World& world) {
   if (!world.glue.empty() || (world.bodies_collide && world.bodies.size() > 1)) return kCoupledCost;
   const auto is_held = [](const SoftBody& body) { return !body.pinned.empty(); };
   const bool is_free = world.obstacles.empty() || std::all_of(world.bodies.begin(), world.bodies.end(), is_held);
   return is_free ? kFreeCost : kObstacleCost;
 }
+
+double implicit_cost(const World& world) { return contact_cost(world) * thinness_cost(world); }
 
 }  // namespace
 

@@ -25,9 +25,9 @@ struct StepPlan {
 
 /// The steps of the scene's scheme. Explicit ones are as long as the stiffest brick allows, implicit ones resolve the
 /// slowest vibration of the bodies, 2 to 16 per frame. Solver::kAuto chooses what is expected to be faster: explicit
-/// steps (Solver::kEuler), or BDF2 if implicit steps, as expensive as some 300 explicit ones each, or 600 with contact
-/// between bodies, save at least half of the time. Throws Error(kBadInput) if the scene requires implicit steps that do
-/// not support it.
+/// steps (Solver::kEuler), or BDF2 if implicit steps, as expensive as some 500 explicit ones each, 1000 with contact
+/// between bodies, and several times that where bodies are thin, save at least half of the time. Throws
+/// Error(kBadInput) if the scene requires implicit steps that do not support it.
 [[nodiscard]] StepPlan plan_steps(const World& world, const Scene& scene);
 
 }  // namespace sprung

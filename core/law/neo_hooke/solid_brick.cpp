@@ -8,7 +8,8 @@ namespace sprung {
 namespace {
 
 constexpr int kGradients = StrainDifferences::kGradients;
-constexpr double kWarping = 3;  // over a plate's E m m; less leaves bodies of slanted bricks softer still
+constexpr double kFarthestCentroid = 0.4;  // brick lengths, along each axis
+constexpr double kWarping = 3;             // over a plate's E m m; less leaves bodies of slanted bricks softer still
 
 }  // namespace
 
@@ -117,6 +118,7 @@ SolidMoments bounded_moments(const SolidMoments& moments, double min_thickness) 
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments.covariance);
   const double least = min_thickness * min_thickness / 12;
   SolidMoments bounded = moments;
+  bounded.centroid = moments.centroid.cwiseMax(-kFarthestCentroid).cwiseMin(kFarthestCentroid);
   if (axes.eigenvalues()[0] < least) {
     bounded.covariance =
         axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();

@@ -173,6 +173,16 @@ TEST(Body, MassIsDensityTimesVolume) {
   EXPECT_GT(body.masses.minCoeff(), 0);
 }
 
+TEST(Masses, ArePositiveWhereASolidLiesMostlyOutsideItsBrick) {
+  BrickGrid grid = make_box_grid({2, 1, 1}, 0.1);
+  grid.fill = {1.2, 0.5};
+  grid.moments.resize(2);
+  grid.moments[0].covariance = 0.02 * Mat3::Identity();
+  grid.moments[0].centroid = {-0.95, 0.1, 0.7};  // it has absorbed neighbours
+  const Body body = make_body(std::move(grid), Model::kCalibrated, test::test_material(0.3));
+  EXPECT_GT(body.masses.minCoeff(), 1e-4 * body.masses.sum());
+}
+
 TEST(Body, FillScalesTheWholeLaw) {
   BrickGrid grid = make_box_grid({1, 1, 1}, 0.1);
   Body full = make_body(grid, Model::kTensile, test_material(0.3));
