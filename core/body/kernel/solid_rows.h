@@ -525,22 +525,15 @@ struct GatheredCorners {
 
   [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, std::size_t corner) const {
     const int* from = places + corner * kPackPadding;
-    if (array == kVelocity) return gathered(input.velocities, from);
-    const Pack3 positions = gathered(input.positions, from);
-    return input.drift == 0 ? positions : positions + Pack(input.drift) * gathered(input.velocities, from);
+    if (array == kVelocity) return gather_points(input.velocities, from);
+    const Pack3 positions = gather_points(input.positions, from);
+    return input.drift == 0 ? positions : positions + Pack(input.drift) * gather_points(input.velocities, from);
   }
   [[gnu::always_inline]] void add(std::size_t corner, const Pack3& force) const {
     double* to = forces + 3 * kPackPadding * corner;
     store(force.x, to);
     store(force.y, to + kPackPadding);
     store(force.z, to + 2 * kPackPadding);
-  }
-
- private:
-  [[nodiscard]] [[gnu::always_inline]] static Pack3 gathered(const double* values, const int* from) {
-    return {Pack([&](auto lane) { return values[from[lane]]; }),
-            Pack([&](auto lane) { return values[from[lane] + 1]; }),
-            Pack([&](auto lane) { return values[from[lane] + 2]; })};
   }
 };
 
