@@ -25,14 +25,15 @@ constexpr double kManyBricks = 1500;  // but not many more than these in all, si
 constexpr double kManyBricksInFilm = 2500;
 constexpr double kManyBrickSteps = 6e7;  // explicit ones, for a second of film
 constexpr double kSag = 0.04;
-constexpr double kOverload = 2;              // times the weight, which must not buckle it:
-constexpr double kOverloadResponse = 3;      // times the displacement, at most
-constexpr double kKeptMargin = 0.6;          // of the distance from the centre of mass to the edge of the feet
-constexpr double kHopeless = 2;              // times the sag by the linear solution: not worth a nonlinear one
-constexpr int kHalvings = 4;                 // of the size
-constexpr double kSupportedFraction = 0.08;  // of the height, ...
-constexpr double kSupportedBricks = 0.5;     // ... but at least so many bricks: these may be askew
-constexpr double kFill = 0.25;               // a brick is taken to be at least that full
+constexpr double kOverload = 2;             // times the weight, which must not buckle it:
+constexpr double kOverloadResponse = 3;     // times the displacement, at most
+constexpr double kKeptMargin = 0.6;         // of the distance from the centre of mass to the edge of the feet
+constexpr double kHopeless = 2;             // times the sag by the linear solution: not worth a nonlinear one
+constexpr int kHalvings = 4;                // of the size
+constexpr double kStandingFraction = 0.04;  // of the height, as round bodies flatten, ...
+constexpr double kHangingFraction = 0.08;   // ... or as the scenario pins, ...
+constexpr double kSupportedBricks = 0.5;    // ... but at least so many bricks: these may be askew
+constexpr double kFill = 0.25;              // a brick is taken to be at least that full
 
 // What does not converge quickly is near buckling.
 const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
@@ -95,7 +96,8 @@ Supports supports_at_end(const Body& body, Support support, const Vec3& down) {
   const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
   const double low = heights.minCoeff();
   const double high = heights.maxCoeff();
-  const double part = std::max(kSupportedFraction * (high - low), kSupportedBricks * body.grid.brick_size);
+  const double fraction = support == Support::kStands ? kStandingFraction : kHangingFraction;
+  const double part = std::max(fraction * (high - low), kSupportedBricks * body.grid.brick_size);
   Supports supports(body.node_count());
   for (int node = 0; node < body.node_count(); ++node) {
     const bool is_supported = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;

@@ -16,7 +16,7 @@ struct SupportingMaterial {
 
 /// How a body is supported.
 enum class Support {
-  kStands,  // its lowest 8 % are fixed
+  kStands,  // its lowest 4 % are fixed
   kHangs,   // its highest 8 %
   kPins     // what its pins hold
 };

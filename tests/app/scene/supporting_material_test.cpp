@@ -19,7 +19,7 @@ SceneBody column(double width, double height) {
 Pin foot() {
   Pin pin;
   pin.name = "foot";
-  pin.box = Box{.max = Vec3(1, 0.08, 1)};
+  pin.box = Box{.max = Vec3(1, 0.04, 1)};
   return pin;
 }
 
