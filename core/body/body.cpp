@@ -20,11 +20,14 @@ namespace sprung {
 namespace {
 
 /// How a brick's mass is lumped at its corners: in eighths, or, where its solid is known, weighted towards the nearer
-/// ones. With weights exactly at its centroid, corners far from it would be left with next to nothing.
+/// ones. With weights exactly at its centroid, corners far from it would be left with next to nothing, and set the
+/// largest stable step.
 CornerWeights corner_shares(const Body& body, std::size_t brick) {
   constexpr double kLean = 0.8;
+  constexpr double kMaxLean = 0.32;
   if (body.solids.empty()) return trilinear_weights(Vec3::Constant(0.5));
-  return trilinear_weights(Vec3::Constant(0.5) + kLean * body.solids[brick].moments.centroid);
+  const Vec3 lean = kLean * body.solids[brick].moments.centroid;
+  return trilinear_weights(Vec3::Constant(0.5) + lean.cwiseMax(-kMaxLean).cwiseMin(kMaxLean));
 }
 
 Eigen::VectorXd lump_masses(const Body& body) {

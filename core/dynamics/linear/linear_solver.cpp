@@ -42,8 +42,15 @@ std::unique_ptr<LinearSolver> make_direct_solver() { return std::make_unique<Dir
 
 namespace {
 
-constexpr int kFewBricks = 200;     // the direct solver is as fast up to here
-constexpr int kManyBricks = 40000;  // and needs gigabytes from here on
+constexpr int kFewBricks = 200;      // the direct solver is as fast up to here,
+constexpr int kFewThinBricks = 600;  // in thin bodies, which take multigrid several times the iterations, up to here,
+constexpr double kThinNodes = 2;     // a brick; compact bodies have 1.4
+constexpr int kManyBricks = 40000;   // and it needs gigabytes from here on
+
+bool is_small(const Body& body) {
+  const int bricks = body.grid.brick_count();
+  return bricks <= (body.node_count() > kThinNodes * bricks ? kFewThinBricks : kFewBricks);
+}
 
 }  // namespace
 
@@ -62,7 +69,7 @@ class DefaultSolver : public LinearSolver {
     supports_ = &supports;
     definite_ = definite;
     terms_ = &terms;
-    is_direct_ = body.grid.brick_count() <= kFewBricks;
+    is_direct_ = is_small(body);
     if (now().linearize(body, supports, definite, terms)) return true;
     if (is_direct_ || !definite || body.grid.brick_count() > kManyBricks) return false;
     is_direct_ = true;

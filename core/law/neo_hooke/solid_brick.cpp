@@ -8,8 +8,8 @@ namespace sprung {
 namespace {
 
 constexpr int kGradients = StrainDifferences::kGradients;
-constexpr double kFarthestCentroid = 0.4;  // brick lengths, along each axis
-constexpr double kWarping = 3;             // over a plate's E m m; less leaves bodies of slanted bricks softer still
+constexpr double kFarthestCentroid = 0.45;  // brick lengths, along each axis
+constexpr double kWarping = 3;              // over a plate's E m m; less leaves bodies of slanted bricks softer still
 
 }  // namespace
 
