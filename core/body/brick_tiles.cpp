@@ -389,12 +389,15 @@ void join_parts(BrickTiles& tiles) {
   }
 }
 
+constexpr int kMaxOthers = 64;  // nodes at a time, so that threads share those of a body without tiles
+
 /// Nodes that no tile has are shared ones without parts.
 void add_others(const std::vector<int>& owners, BrickTiles& tiles) {
   for (int node = 0; node < isize(owners); ++node) {
     if (owners[node] != kNone) continue;
     const int first = node;
-    while (node + 1 < isize(owners) && owners[node + 1] == kNone) ++node;
+    const int last = std::min(first + kMaxOthers, isize(owners)) - 1;
+    while (node < last && owners[node + 1] == kNone) ++node;
     tiles.shared.push_back({first, node + 1 - first, 0, 0});
   }
 }

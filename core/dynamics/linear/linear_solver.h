@@ -101,8 +101,8 @@ class IterativeSolver : public LinearSolver {
 /// The direct solver unless the body is too large for it, else multigrid.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_robust_solver(const Body& body);
 
-/// The faster of the two for the body's size; if multigrid gives up, the direct solver takes over, unless the body is
-/// too large for it.
+/// The faster of the two for the body's size, and for its thinness: thin parts take multigrid more iterations. If
+/// multigrid gives up, the direct solver takes over, unless the body is too large for it.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_default_solver();
 
 /// The stopping criterion of conjugate gradients.
