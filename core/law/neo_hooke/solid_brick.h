@@ -78,8 +78,8 @@ class SolidBrick {
 [[nodiscard]] Vec3 warping_stiffness(const SolidMoments& moments);
 
 /// Moments admissible for the law: in no direction is the solid thinner than `min_thickness`, in brick lengths, and its
-/// centroid is no further than 0.45 of them from the middle along any axis. Corners far from a centroid have little mass
-/// and set the largest stable step; that of a brick that has absorbed others may even be outside of it.
+/// centroid is no further than 0.45 of them from the middle along any axis. Corners far from a centroid have little
+/// mass and set the largest stable step; that of a brick that has absorbed others may even be outside of it.
 [[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double min_thickness = 0.02);
 
 }  // namespace sprung
