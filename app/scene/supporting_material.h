@@ -11,7 +11,7 @@ struct SupportingMaterial {
   const LibraryMaterial* material = nullptr;
   double size = 0;  // m, longest side of the body: smaller than requested if no material supports it at that size
   double sag = 0;   // largest displacement of a node under its own weight over the size
-  int bricks = 0;   // along the longest side: kDefaultBricks, or fewer if a second of film would take minutes
+  int bricks = 0;   // along the longest side: kDefaultBricks, or fewer so that a film takes seconds
 };
 
 /// How a body is supported.

@@ -61,7 +61,7 @@ bool goes_on(const Body& body, int brick) {
          grid.cells[brick + 1] == grid.cells[brick] + Eigen::Vector3i::UnitX();
 }
 
-constexpr int kShortRow = 8;  // whole bricks along x, from which on a tile is faster than gathering them
+constexpr int kLongRow = 8;  // whole bricks along x, from which on a tile is faster than gathering them
 
 /// Bricks, ascending: of tiles, and other whole and cut ones.
 struct Division {
@@ -79,7 +79,7 @@ Division divide(const Body& body) {
     }
     const int first = brick;
     while (goes_on(body, brick)) ++brick;
-    std::vector<int>& to = brick + 1 - first < kShortRow ? division.whole : division.tiled;
+    std::vector<int>& to = brick + 1 - first < kLongRow ? division.whole : division.tiled;
     for (int one = first; one <= brick; ++one) to.push_back(one);
   }
   return division;

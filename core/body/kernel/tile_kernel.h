@@ -91,8 +91,8 @@ struct SolidLaw {
   double warping = 0;
 };
 
-/// The parameters of a pack of cut solid bricks, kPackPadding each, preceded by -1; a pack of whole bricks has only
-/// their shares.
+/// The parameters of a pack of solid bricks if one of them is cut, kPackPadding each, preceded by -1; a pack of whole
+/// bricks has only their shares. Tiles have whole bricks only, and gathered packs do not mix them.
 enum SolidNumber : int {
   kSolidIsCut = 0,
   kSolidShare = 1,      // stiffness in multiples of the body's full brick, by material and fill
