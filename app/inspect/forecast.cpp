@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
-#include "core/dynamics/explicit/adaptive_integrator.h"
-#include "core/dynamics/implicit/implicit_motion.h"
 #include "core/error.h"
 #include "core/simulation/simulate.h"
 #include "render/renderer.h"
@@ -20,7 +19,6 @@ constexpr double kBytesAPixel = 120;           // per sample: colour, depth, lig
 constexpr double kBytesABrick = 900;           // grid, patches, state and tiles
 constexpr double kBytesABrickImplicit = 3200;  // including the matrices and vectors of multigrid
 constexpr double kBytesASkinVertex = 400;      // rest shape, embedding, contact, buffers of the driver
-constexpr double kSecondsToMeasure = 0.3;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -30,65 +28,51 @@ bool is_implicit(const Film& film, const World& world) {
   return !is_motion(film) || plan_steps(world, film).is_implicit();
 }
 
-double seconds_of_implicit_frame(World world, const StepPlan& plan) {
-  const auto start = std::chrono::steady_clock::now();
-  ImplicitMotion motion(world,
-                        {.scheme = plan.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2 : ImplicitScheme::kEuler});
-  motion.advance(plan.steps.dt, 1, 0);
-  return seconds_since(start) * double(plan.steps.count);
-}
-
-/// Measures explicit time steps of all bodies: seconds per call, and per step.
-double seconds_of_explicit_frame(World world, const StepPlan& plan) {
-  const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
-  double bricks = 0;
-  for (const SoftBody& body : world.bodies) bricks += body.grid.brick_count();
-  const double dt = stable_step(world);
-  const auto seconds_of = [&](long steps) {
-    const auto start = std::chrono::steady_clock::now();
-    advance(world, scheme, dt, steps, 0);
-    return seconds_since(start);
-  };
-  static_cast<void>(seconds_of(1));  // the first call starts threads and allocates
-  const double one = seconds_of(1);
-  const double whole = plan.brick_steps / bricks;  // steps per frame
-  double seconds = 0;
-  double a_step = one;
-  for (long steps = 2; seconds < kSecondsToMeasure && double(steps) <= std::max(whole, 2.0); steps *= 2) {
-    const double more = seconds_of(1 + steps);
-    a_step = std::max(more - one, 0.0) / double(steps);
-    seconds += more;
-  }
-  return one + a_step * std::max(whole - 1, 0.0);
-}
-
-/// Measures the frames of a run, up to some time.
-class FrameClock : public Observer {
+/// How the time that a run takes grows with the part of the film that is done.
+class RunClock : public Observer {
  public:
-  explicit FrameClock(double most) : most_(most) {}
+  /// Ends the run after so many seconds.
+  explicit RunClock(double seconds_at_most) : seconds_at_most_(seconds_at_most) {}
 
-  void check_interrupt() const override {
-    if (seconds_since(start_) > most_) throw Error(ErrorKind::kFailed, "enough is measured");
-  }
-  void finish_frame(int frame, double, const World&) const override {
-    if (frame == 0) start_ = std::chrono::steady_clock::now();  // what comes before belongs to no frame
-    ends_.push_back(seconds_since(start_));
+  void show(const Progress& progress) const override {
+    if (progress.name() != "simulate") return;
+    shares_.push_back(progress.done() / progress.total());
+    seconds_.push_back(progress.seconds());
+    if (seconds_.back() > seconds_at_most_) throw Error(ErrorKind::kFailed, "enough of the motion is timed");
   }
 
-  /// Seconds per frame of a film of that many, if the rest is like the last third of those measured; none if there are
-  /// none.
-  [[nodiscard]] std::optional<double> mean(int frames) const {
-    if (ends_.size() < 2) return std::nullopt;
-    const std::size_t done = ends_.size() - 1;
-    const std::size_t last = std::max<std::size_t>(1, done / 3);
-    const double late = (ends_[done] - ends_[done - last]) / double(last);
-    return (ends_[done] + late * std::max(0, frames - 1 - int(done))) / std::max(1, frames - 1);
+  /// Of the film.
+  [[nodiscard]] double share() const { return shares_.empty() ? 0 : shares_.back(); }
+
+  [[nodiscard]] double seconds() const { return seconds_.empty() ? 0 : seconds_.back(); }
+
+  /// Seconds of the frames that are whole, of `count` after the first one.
+  [[nodiscard]] std::vector<double> frames(int count) const {
+    std::vector<double> seconds;
+    double before = 0;
+    for (int frame = 1; frame <= count && double(frame) / count <= share() + kRounding; ++frame) {
+      const double until = seconds_until(double(frame) / count);
+      seconds.push_back(until - before);
+      before = until;
+    }
+    return seconds;
   }
 
  private:
-  double most_;
-  mutable std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  mutable std::vector<double> ends_;  // s, of the frames
+  static constexpr double kRounding = 1e-9;
+
+  [[nodiscard]] double seconds_until(double share) const {
+    const auto after = std::lower_bound(shares_.begin(), shares_.end(), share);
+    if (after == shares_.begin()) return 0;
+    if (after == shares_.end()) return seconds_.back();
+    const std::size_t end = std::size_t(after - shares_.begin());
+    const double along = (share - shares_[end - 1]) / (shares_[end] - shares_[end - 1]);
+    return seconds_[end - 1] + along * (seconds_[end] - seconds_[end - 1]);
+  }
+
+  double seconds_at_most_;
+  mutable std::vector<double> shares_;
+  mutable std::vector<double> seconds_;
 };
 
 /// The scene with bricks twice as large.
@@ -99,55 +83,71 @@ Film coarsened(Film scene) {
     if (body.bricks && !body.bricks->is_auto()) body.bricks->along = std::max(kMinBricks, body.bricks->along / 2);
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks / 2;
   }
-  scene.probes.clear();
   return scene;
 }
 
-double count_of_bricks(const World& world) {
-  double count = 0;
-  for (const SoftBody& body : world.bodies) count += body.grid.brick_count();
-  return count;
+/// The frames of a run that ends within the time of the clock; none if it does not.
+std::optional<int> frames_of_run(Simulation simulation, const Film& film, const RunClock& clock) {
+  try {
+    return int(simulate(simulation, film, clock).progress.size());
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
-double count_of_contact_points(const World& world) {
-  double count = 0;
-  for (const SoftBody& body : world.bodies) count += double(body.contact.points.brick.size());
-  return count;
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// Of the last third.
+double late_mean(const std::vector<double>& values) {
+  const auto third = std::max<std::ptrdiff_t>(1, std::ssize(values) / 3);
+  return std::accumulate(values.end() - third, values.end(), 0.0) / double(third);
 }
 
-struct CoarseRun {
-  double seconds = 0;  // mean per frame
-  int frames = 0;      // fewer than the scene's if it came to rest before
+/// Appends to the seconds of a film's first frames those of the frames that follow in the same film with bricks twice
+/// as large. Without contact a frame takes what the quickest one takes. What it takes beyond that, for contact, grows
+/// in proportion.
+void append_like(const std::vector<double>& coarse, std::vector<double>& seconds) {
+  constexpr double kOfContact = 0.2;  // of the time of the frames that both have: the least that tells its growth
+  constexpr double kGrowth = 3;       // otherwise; 1.6 to 5.2 in the project's scenes
+  if (coarse.size() <= seconds.size()) return;
+  const double free = *std::min_element(seconds.begin(), seconds.end());
+  const double coarse_free = *std::min_element(coarse.begin(), coarse.end());
+  const double both = double(seconds.size());
+  const double coarse_sum = std::accumulate(coarse.begin(), coarse.begin() + std::ssize(seconds), 0.0);
+  const double coarse_contact = coarse_sum - both * coarse_free;
+  const bool is_told = coarse_contact > kOfContact * coarse_sum;
+  const double growth = is_told ? (sum(seconds) - both * free) / coarse_contact : kGrowth;
+  for (std::size_t frame = seconds.size(); frame < coarse.size(); ++frame) {
+    seconds.push_back(free + growth * (coarse[frame] - coarse_free));
+  }
+}
+
+struct MotionTime {
+  double seconds = 0;
+  int frames = 0;  // fewer than the scene's if it comes to rest before
 };
 
-/// The time that contact adds to a frame, from a run of the whole scene with coarse bricks: it grows in proportion to
-/// its points and steps. For implicit steps, whose Newton iterations grow with it, their total time. None if the scene
-/// cannot be coarsened.
-std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& film, const StepPlan& plan) {
-  constexpr double kMost = 4;  // s: of a heap that falls, the impact and some of what follows
-  const FrameClock clock(kMost);
-  const Film coarse = coarsened(film);
-  std::optional<Simulation> small;
-  std::optional<StepPlan> small_plan;
-  double free_frame = 0;
-  int frames = frame_count(film);
+/// Of the whole motion: runs it, and if that takes long, runs it with larger bricks to see more of it. Frames after
+/// those seen are like the last of them.
+MotionTime time_motion(const Simulation& simulation, Film film) {
+  constexpr double kSeconds = 3;
+  constexpr double kCoarseSeconds = 2;
+  film.probes.clear();
+  const RunClock clock(kSeconds);
+  if (const std::optional<int> frames = frames_of_run(simulation, film, clock)) return {clock.seconds(), *frames};
+  const RunClock coarse_clock(kCoarseSeconds);
+  std::optional<int> coarse_frames;
   try {
-    small = prepare_simulation(coarse, Observer());
-    small_plan = plan_steps(small->world, coarse);
-    if (small_plan->is_implicit() != plan.is_implicit()) return std::nullopt;
-    if (!plan.is_implicit()) free_frame = seconds_of_explicit_frame(small->world, *small_plan);
-    frames = int(simulate(*small, coarse, clock).progress.size());
-  } catch (const Error&) {
-    if (!small || !small_plan) return std::nullopt;
+    const Film coarse = coarsened(film);
+    coarse_frames = frames_of_run(prepare_simulation(coarse, Observer()), coarse, coarse_clock);
+  } catch (const Error&) {  // bricks so large do not fit the scene
   }
-  const std::optional<double> frame = clock.mean(frames);
-  if (!frame) return std::nullopt;
-  const double steps = double(plan.steps.count) / double(small_plan->steps.count);
-  if (plan.is_implicit()) {
-    return CoarseRun{*frame * steps * count_of_bricks(simulation.world) / count_of_bricks(small->world), frames};
-  }
-  const double points = count_of_contact_points(simulation.world) / count_of_contact_points(small->world);
-  return CoarseRun{std::max(0.0, *frame - free_frame) * steps * points, frames};
+  const int moves = frame_count(film) - 1;
+  std::vector<double> seconds = clock.frames(moves);
+  if (seconds.empty()) seconds.push_back(clock.seconds() / std::max(clock.share() * moves, 1e-3));
+  append_like(coarse_clock.frames(moves), seconds);
+  const int last = coarse_frames.value_or(moves + 1) - 1;
+  return {sum(seconds) + late_mean(seconds) * std::max(0, last - int(seconds.size())), last + 1};
 }
 
 double seconds_a_picture(const Simulation& simulation, const Film& film) {
@@ -204,15 +204,9 @@ Forecast make_forecast(const Simulation& simulation, const Film& film) {
   forecast.frames = frame_count(film);
   if (is_motion(film)) {
     forecast.plan = plan_steps(simulation.world, film);
-    const std::optional<CoarseRun> coarse = coarse_run(simulation, film, *forecast.plan);
-    if (coarse) forecast.frames = coarse->frames;
-    if (!forecast.plan->is_implicit()) {
-      forecast.seconds_simulating =
-          seconds_of_explicit_frame(simulation.world, *forecast.plan) + (coarse ? coarse->seconds : 0);
-    } else {
-      forecast.seconds_simulating =
-          coarse ? coarse->seconds : seconds_of_implicit_frame(simulation.world, *forecast.plan);
-    }
+    const MotionTime motion = time_motion(simulation, film);
+    forecast.frames = motion.frames;
+    forecast.seconds_simulating = motion.seconds / motion.frames;
   }
   forecast.seconds_drawing = seconds_a_picture(simulation, film);
   return forecast;

@@ -117,6 +117,17 @@ TEST_F(Inspect, BadInputIsOneLineAndThree) {
   EXPECT_NE(ended.err.find("sprung: error: "), std::string::npos) << ended.err;
 }
 
+TEST_F(Inspect, ForecastsTheFramesOfAFilmThatEndsAtRest) {
+  const std::string drop = "cube.obj --bricks 4 --size 10cm --material silicone-a40 ";
+  const ProgramRun seen = run(drop + "--json");
+  ASSERT_EQ(seen.exit_code, 0) << seen.err;
+  const ProgramRun made = run_program(folder_, "simulate " + drop + "-o run.h5");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string frames = std::to_string(long(number_at(seen.out, {"forecast", "frames"})));
+  const std::string cache = run("run.h5").out;
+  EXPECT_NE(cache.find("frames " + frames + " of at most"), std::string::npos) << cache;
+}
+
 TEST(Forecast, WarnsOfMoreMemoryThanThereIs) {
   EXPECT_EQ(warning_of_memory(1e6), "");
   EXPECT_NE(warning_of_memory(1e18).find("needs about 1e+09 GB of memory"), std::string::npos)
