@@ -42,7 +42,7 @@ bool FeaturePairs::fill(const NearBricks& bricks) {
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));
   NearList& list = lists_[bricks.list];
   std::vector<Sleeper> before = std::move(list.sleepers);
-  list = {.block = bricks.block, .margin = bricks.margin, .unlisted = kSeen * bricks.margin};
+  list = {.margin = bricks.margin, .unlisted = kSeen * bricks.margin};
   list_points(0, bricks.a, bricks.b, list);
   list_points(is_self() ? 0 : 1, bricks.b, bricks.a, list);
   list_edges(bricks.a, bricks.b, list);
@@ -216,10 +216,11 @@ void FeaturePairs::wake() {
   ++look_;
   woken_.clear();
   measured_.clear();
-  for (NearList& list : lists_) {
+  for (int row = 0; row < isize(lists_); ++row) {
+    NearList& list = lists_[row];
     if (list.sleepers.empty()) continue;
-    const double closer = front_.closer(list.block);
-    const double coming = front_.moving_closer(list.block);
+    const double closer = front_.closer(row);
+    const double coming = front_.moving_closer(row);
     if (list.first_wake > closer + coming) continue;
     list.first_wake = std::numeric_limits<double>::infinity();
     for (Sleeper& sleeper : list.sleepers) {

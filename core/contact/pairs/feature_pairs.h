@@ -30,13 +30,12 @@ class FeaturePairs : private NearLists {
  private:
   struct Sleeper {
     FeaturePair pair;
-    double wake = 0;              // m, by which its block may come closer before it must be checked
+    double wake = 0;              // m, by which its bricks may come closer before it must be checked
     Vec3 normal = Vec3::Zero();   // unit, of a plane that separated its features when last measured; 0: none
     Vec3 impulse = Vec3::Zero();  // N s
     bool is_inside = false;       // the point, in the other surface, when last measured
   };
   struct NearList {
-    std::size_t block = 0;
     double first_wake = 0;  // of its sleepers
     double margin = 0;      // m, within which features are listed
     double unlisted = 0;    // m: all others are at least that far apart

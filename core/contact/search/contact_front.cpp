@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kGrown = 2;  // times, plus a constant: a front that has grown this much is rebuilt
 constexpr std::size_t kGrownBy = 500;
 constexpr double kFar = 0.5;     // bricks: pairs of subtrees that are further apart stay whole
+constexpr double kSlow = 0.2;    // of its way, that a watched pair may go by the motions of its clusters
 constexpr double kTurned = 0.4;  // bricks that parts of bricks move, at least, as these turn by a radian
 }  // namespace
 
@@ -37,14 +38,28 @@ double ContactFront::moving_closer(int a, int b) const {
   return reach_between(a_.motion(a).moving, b_.motion(b).moving);
 }
 
+double ContactFront::bricks_moved_closer(int a, int b) {
+  const int one = a_.brick_of(a_.nodes()[a]);
+  const int other = b_.brick_of(b_.nodes()[b]);
+  if (is_self()) return reach_between(a_.own_brick_motion(one).moved, a_.own_brick_motion(other).moved);
+  return reach_between(a_.brick_motion(one).moved, b_.brick_motion(other).moved);
+}
+
+double ContactFront::bricks_moving_closer(int a, int b) {
+  const int one = a_.brick_of(a_.nodes()[a]);
+  const int other = b_.brick_of(b_.nodes()[b]);
+  if (is_self()) return reach_between(a_.own_brick_motion(one).moving, a_.own_brick_motion(other).moving);
+  return reach_between(a_.brick_motion(one).moving, b_.brick_motion(other).moving);
+}
+
 bool ContactFront::advance() {
   has_changed_ = false;
   if (size_ > kGrown * size_when_new_ + kGrownBy) {
     blocks_.clear();
     known_blocks_.clear();
     lists_.clear();
-    list_count_ = 0;
-    free_lists_.clear();
+    watched_.clear();
+    free_numbers_.clear();
     size_ = 0;
     has_changed_ = true;
   }
@@ -54,6 +69,19 @@ bool ContactFront::advance() {
     return has_changed_;
   }
   due_.clear();
+  due_watched_.clear();
+  for (int number = 0; number < isize(watched_); ++number) {
+    Watched& pair = watched_[number];
+    if (pair.a < 0) continue;
+    double moved = moved_closer(pair.a, pair.b);
+    pair.moving = moving_closer(pair.a, pair.b);
+    if (moved + pair.moving > kSlow * pair.wake) {
+      moved = bricks_moved_closer(pair.a, pair.b);
+      pair.moving = bricks_moving_closer(pair.a, pair.b);
+    }
+    pair.closer += moved;
+    if (pair.wake <= pair.closer + pair.moving) due_watched_.push_back(number);
+  }
   for (Block& block : blocks_) {
     if (block.heap.empty()) continue;
     block.closer += moved_closer(block.a, block.b);
@@ -65,7 +93,8 @@ bool ContactFront::advance() {
       --size_;
     }
   }
-  for (const Pair& pair : due_) look(pair.a, pair.b, pair.list);
+  for (const int number : due_watched_) look(watched_[number].a, watched_[number].b, number);
+  for (const Pair& pair : due_) look(pair.a, pair.b, -1);
   return has_changed_;
 }
 
@@ -78,22 +107,43 @@ std::size_t ContactFront::block_of(int a, int b) {
   return known->second;
 }
 
-void ContactFront::keep(int a, int b, double budget, int list) {
+void ContactFront::keep(int a, int b, double budget) {
   Block& block = blocks_[block_of(a, b)];
-  block.heap.push_back({block.closer + budget, a, b, list});
+  block.heap.push_back({block.closer + budget, a, b});
   std::push_heap(block.heap.begin(), block.heap.end());
   ++size_;
 }
 
-void ContactFront::look(int a, int b, int list) {
+int ContactFront::watch() {
+  ++size_;
+  if (free_numbers_.empty()) {
+    watched_.emplace_back();
+    return isize(watched_) - 1;
+  }
+  const int number = free_numbers_.back();
+  free_numbers_.pop_back();
+  return number;
+}
+
+void ContactFront::clear_list(int number) {
+  if (!watched_[number].is_listed) return;
+  const bool changed = lists_.clear(number);
+  has_changed_ = has_changed_ || changed;
+}
+
+void ContactFront::put_off(int a, int b, double budget, int number) {
+  if (number >= 0) {
+    clear_list(number);
+    watched_[number] = {};
+    free_numbers_.push_back(number);
+    --size_;
+  }
+  keep(a, b, budget);
+}
+
+void ContactFront::look(int a, int b, int number) {
   const SurfaceTree::Node& one = a_.nodes()[a];
   const SurfaceTree::Node& other = b_.nodes()[b];
-  const auto drop_list = [&] {
-    if (list < 0) return;
-    const bool changed = lists_.clear(list);
-    has_changed_ = has_changed_ || changed;
-    free_lists_.push_back(list);
-  };
   if (is_self() && one.is_leaf() && other.is_leaf()) {
     const std::vector<int>& connected = a_.skin().connected[a_.brick_of(one)];
     if (std::binary_search(connected.begin(), connected.end(), b_.brick_of(other))) return;
@@ -102,17 +152,17 @@ void ContactFront::look(int a, int b, int list) {
   const double distance = a_.box(a).exteriorDistance(b_.box(b));
   const bool are_leaves = one.is_leaf() && other.is_leaf();
   // Pairs that may be needed in this step count as near.
-  const double needed = moving_closer(a, b);
-  if (distance > std::max((are_leaves ? margin_ : kFar * brick_), needed)) {
-    drop_list();
-    return keep(a, b, distance, -1);
-  }
+  const double moving = moving_closer(a, b);
+  if (distance > std::max(are_leaves ? margin_ : kFar * brick_, moving)) return put_off(a, b, distance, number);
   if (const double turn = turn_until_facing(a, b); is_self() && turn > kBent) {
-    drop_list();
-    return keep(a, b, std::max(kTurned * turn * brick_, distance), -1);
+    return put_off(a, b, std::max(kTurned * turn * brick_, distance), number);
   }
   if (!are_leaves) return split(a, b);
-  fill_list(a, b, std::max(margin_, needed), list);
+  if (number < 0) number = watch();
+  const double needed = bricks_moving_closer(a, b);
+  if (distance <= std::max(margin_, needed)) return fill_list(a, b, std::max(margin_, needed), number);
+  clear_list(number);
+  watched_[number] = {.a = a, .b = b, .moving = needed, .wake = distance};
 }
 
 void ContactFront::split(int a, int b) {
@@ -132,20 +182,13 @@ void ContactFront::split(int a, int b) {
   }
 }
 
-void ContactFront::fill_list(int a, int b, double margin, int list) {
-  if (list < 0) {
-    if (free_lists_.empty()) free_lists_.push_back(list_count_++);
-    list = free_lists_.back();
-    free_lists_.pop_back();
-  }
-  const NearBricks bricks{.list = list,
-                          .a = a_.brick_of(a_.nodes()[a]),
-                          .b = b_.brick_of(b_.nodes()[b]),
-                          .margin = margin,
-                          .block = block_of(a, b)};
+void ContactFront::fill_list(int a, int b, double margin, int number) {
+  const NearBricks bricks{
+      .list = number, .a = a_.brick_of(a_.nodes()[a]), .b = b_.brick_of(b_.nodes()[b]), .margin = margin};
   const bool changed = lists_.fill(bricks);
   has_changed_ = has_changed_ || changed;
-  keep(a, b, lists_.budget(bricks), list);
+  watched_[number] = {
+      .a = a, .b = b, .moving = bricks_moving_closer(a, b), .wake = lists_.budget(bricks), .is_listed = true};
 }
 
 }  // namespace sprung

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "core/body/body.h"
-#include "core/contact/search/rigid_motion.h"
 #include "core/contact/search/segment_crossing.h"
 
 namespace sprung {
@@ -55,6 +54,11 @@ bool meets(const AlignedBox& box, const Vec3& start, const Vec3& end) {
   return first <= last;
 }
 
+void sort_unique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 constexpr Eigen::Index kFitted = 64;  // about this many points suffice
 
 /// The least-squares rigid motion of vectors at some of these positions.
@@ -70,7 +74,7 @@ RigidMotion rigid_fit(const Points& positions, const Points& vectors) {
 }  // namespace
 
 SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
-    : skin_(skin), body_(body), before_(body.positions) {
+    : skin_(skin), body_(body), followed_(body.positions) {
   const int count = isize(skin.bricks);
   order_.resize(count);
   std::iota(order_.begin(), order_.end(), 0);
@@ -80,7 +84,10 @@ SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
         kNormalWeight * skin.cones[row].axis.transpose();
   }
   if (count > 0) add_node(0, count, -1, features);
+  list_points_of_bricks();
   list_nodes_of_clusters();
+  brick_motions_.resize(skin.bricks.size());
+  own_brick_motions_.resize(skin.bricks.size());
   motions_.resize(nodes_.size());
   own_motions_.resize(nodes_.size());
   boxes_.resize(nodes_.size());
@@ -113,25 +120,32 @@ void SurfaceTree::add_node(int first, int last, int cluster, const Features& fea
   add_node(half, last, cluster, features);
 }
 
+void SurfaceTree::list_points_of_bricks() {
+  for (int row = 0; row < isize(skin_.bricks); ++row) {
+    std::vector<int>& points = points_of_brick_.emplace_back();
+    for (int point = skin_.first_point[row]; point < skin_.first_point[row + 1]; ++point) points.push_back(point);
+    for (int triangle = skin_.first_triangle[row]; triangle < skin_.first_triangle[row + 1]; ++triangle) {
+      points.insert(points.end(), skin_.triangles[triangle].begin(), skin_.triangles[triangle].end());
+    }
+    for (int edge = skin_.first_edge[row]; edge < skin_.first_edge[row + 1]; ++edge) {
+      points.push_back(skin_.edges[edge][1]);
+    }
+    sort_unique(points);
+  }
+}
+
 void SurfaceTree::list_nodes_of_clusters() {
   for (const int node : cluster_nodes_) {
     std::vector<int>& nodes = nodes_of_cluster_.emplace_back();
     double& spread = spread_of_cluster_.emplace_back(1);
-    const auto add = [&](int point) {
-      const ContactPoint& at = skin_.points[point];
-      nodes.insert(nodes.end(), body_.grid.nodes[at.brick].begin(), body_.grid.nodes[at.brick].end());
-      spread = std::max(spread, at.weights.cwiseAbs().sum());
-    };
     for (int i = nodes_[node].first; i < nodes_[node].last; ++i) {
-      const int row = order_[i];
-      for (int point = skin_.first_point[row]; point < skin_.first_point[row + 1]; ++point) add(point);
-      for (int triangle = skin_.first_triangle[row]; triangle < skin_.first_triangle[row + 1]; ++triangle) {
-        for (const int corner : skin_.triangles[triangle]) add(corner);
+      for (const int point : points_of_brick_[order_[i]]) {
+        const ContactPoint& at = skin_.points[point];
+        nodes.insert(nodes.end(), body_.grid.nodes[at.brick].begin(), body_.grid.nodes[at.brick].end());
+        spread = std::max(spread, at.weights.cwiseAbs().sum());
       }
-      for (int edge = skin_.first_edge[row]; edge < skin_.first_edge[row + 1]; ++edge) add(skin_.edges[edge][1]);
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sort_unique(nodes);
   }
 }
 
@@ -176,32 +190,58 @@ void SurfaceTree::follow(double time, double more) {
   ++look_;
   time_ahead_ = time;
   distance_ahead_ = more;
-  const Points moved = body_.positions - before_;
+  before_ = followed_;
+  followed_ = body_.positions;
+  const Points moved = followed_ - before_;
   const Points moving = time * body_.velocities;
   measure(moved, moving, more, motions_);
-  before_ = body_.positions;
   if (body_.contact.with_itself && !skin_.triangles.empty()) measure_own(moved, moving);
 }
 
 void SurfaceTree::measure_own(const Points& moved, const Points& moving) {
   // The body's past rigid motion is removed as a rotation, which is exact; the coming one as a velocity.
-  const Points before = body_.positions - moved;
-  const RigidMotion turned = rigid_fit(before, moved);
+  const RigidMotion turned = rigid_fit(before_, moved);
   const double angle = turned.spin.norm();
-  const Mat3 rotation =
-      angle > 0 ? Eigen::AngleAxisd(angle, turned.spin / angle).toRotationMatrix() : Mat3(Mat3::Identity());
-  const RigidMotion turning = rigid_fit(body_.positions, moving);
+  turned_ = angle > 0 ? Eigen::AngleAxisd(angle, turned.spin / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+  turning_ = rigid_fit(followed_, moving);
   Points own_moved(moved.rows(), 3);
   Points own_moving(moved.rows(), 3);
   double furthest = 0;
   const Vec3 middle = body_.positions.colwise().mean();
   for (int row = 0; row < moved.rows(); ++row) {
     const Vec3 now = body_.positions.row(row);
-    own_moved.row(row) = (now - rotation * Vec3(before.row(row))).transpose();
-    own_moving.row(row) = (Vec3(moving.row(row)) - turning.at(now)).transpose();
+    own_moved.row(row) = (now - turned_ * Vec3(before_.row(row))).transpose();
+    own_moving.row(row) = (Vec3(moving.row(row)) - turning_.at(now)).transpose();
     furthest = std::max(furthest, (now - middle).squaredNorm());
   }
-  measure(own_moved, own_moving, turning.spin.squaredNorm() * std::sqrt(furthest) / 2, own_motions_);
+  own_ahead_ = turning_.spin.squaredNorm() * std::sqrt(furthest) / 2 + distance_ahead_;
+  measure(own_moved, own_moving, own_ahead_, own_motions_);
+}
+
+SurfaceTree::Motion SurfaceTree::find_brick_motion(int brick, bool is_own) {
+  Eigen::AlignedBox3d moved;
+  Eigen::AlignedBox3d moving;
+  for (const int point : points_of_brick_[brick]) {
+    const Vec3& now = position_of(point);
+    const Vec3 before = carried(body_, skin_.points[point], before_);
+    moved.extend(now - (is_own ? Vec3(turned_ * before) : before));
+    const Vec3 coming = time_ahead_ * velocity_of(point);
+    moving.extend(is_own ? Vec3(coming - turning_.at(now)) : coming);
+  }
+  return {{moved.center(), moved.diagonal().norm() / 2},
+          {moving.center(), moving.diagonal().norm() / 2 + (is_own ? own_ahead_ : distance_ahead_)}};
+}
+
+const SurfaceTree::Motion& SurfaceTree::brick_motion(int brick) {
+  Cached<Motion>& motion = brick_motions_[brick];
+  if (motion.step != look_) motion = {find_brick_motion(brick, false), look_};
+  return motion.value;
+}
+
+const SurfaceTree::Motion& SurfaceTree::own_brick_motion(int brick) {
+  Cached<Motion>& motion = own_brick_motions_[brick];
+  if (motion.step != look_) motion = {find_brick_motion(brick, true), look_};
+  return motion.value;
 }
 
 void SurfaceTree::find_position(int point) {

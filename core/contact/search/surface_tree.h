@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/contact/search/contact_surface.h"
+#include "core/contact/search/rigid_motion.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -35,8 +36,10 @@ class SurfaceTree {
 
   /// Resets it to its initial state.
   void begin() {
-    before_ = body_.positions;
+    followed_ = body_.positions;
     look_ = 0;
+    std::fill(brick_motions_.begin(), brick_motions_.end(), Cached<Motion>{});
+    std::fill(own_brick_motions_.begin(), own_brick_motions_.end(), Cached<Motion>{});
     std::fill(heights_.begin(), heights_.end(), Cached<double>{});
     std::fill(heights_about_.begin(), heights_about_.end(), Cached<double>{});
     refresh();
@@ -75,6 +78,9 @@ class SurfaceTree {
   /// The same relative to the rigid motion of the body, which brings no two of its points closer; for bodies that
   /// collide with themselves, and surfaces with triangles.
   [[nodiscard]] const Motion& own_motion(int node) const { return own_motions_[node]; }
+  /// Those of one brick of the skin, which are tighter than a subtree's.
+  [[nodiscard]] const Motion& brick_motion(int brick);
+  [[nodiscard]] const Motion& own_brick_motion(int brick);
   /// The topmost node that always has the same motions: that of its cluster, or itself.
   [[nodiscard]] int cluster_node(int node) const {
     return nodes_[node].cluster < 0 ? node : cluster_nodes_[nodes_[node].cluster];
@@ -111,12 +117,14 @@ class SurfaceTree {
   /// By brick of the skin: its middle, and its normal times kNormalWeight, in bricks.
   using Features = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   void add_node(int first, int last, int cluster, const Features& features);
+  void list_points_of_bricks();
   void list_nodes_of_clusters();
   void find_position(int point);
   void find_velocity(int point);
   [[nodiscard]] double height_above(int triangle);
   /// Sums the signed crossings of the segment from `start` to `end` with the triangles of a subtree.
   [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
+  [[nodiscard]] Motion find_brick_motion(int brick, bool is_own);
   /// Computes the motion of every node of the tree from the past and coming displacements of the body's nodes.
   void measure(const Points& moved, const Points& moving, double more, std::vector<Motion>& motions) const;
   /// The same relative to the body's rigid motion.
@@ -133,10 +141,15 @@ class SurfaceTree {
   std::vector<Node> nodes_;
   std::vector<int> cluster_nodes_;                  // by cluster: the topmost
   std::vector<std::vector<int>> nodes_of_cluster_;  // of the body, that carry its points and triangles
+  std::vector<std::vector<int>> points_of_brick_;   // of the skin: its own, and its triangles' and edges'
   std::vector<double> spread_of_cluster_;           // its points' largest sum of absolute weights; 1: all inside
   std::vector<Motion> motions_;                     // by node
   std::vector<Motion> own_motions_;
-  Points before_;              // where the body's nodes were when last followed
+  Points followed_;            // the body's nodes, when last followed
+  Points before_;              // and the time before
+  Mat3 turned_;                // the body's rotation since then
+  RigidMotion turning_;        // and its coming rigid motion, until the next time
+  double own_ahead_ = 0;       // m, that points may move besides that
   double time_ahead_ = 0;      // s
   double distance_ahead_ = 0;  // m
   long step_ = 0;
@@ -146,9 +159,11 @@ class SurfaceTree {
   std::vector<Cached<Vec3>> positions_;  // by point
   std::vector<Cached<Vec3>> normals_;
   std::vector<Cached<Vec3>> velocities_;
-  long look_ = 0;                              // calls of follow()
-  std::vector<Cached<double>> heights_;        // by triangle, of that many calls
-  std::vector<Cached<double>> heights_about_;  // by point, likewise
+  std::vector<Cached<Motion>> brick_motions_;      // by brick of the skin, of that many calls of follow()
+  std::vector<Cached<Motion>> own_brick_motions_;  // likewise
+  long look_ = 0;                                  // calls of follow()
+  std::vector<Cached<double>> heights_;            // by triangle, of that many calls
+  std::vector<Cached<double>> heights_about_;      // by point, likewise
 };
 
 }  // namespace sprung

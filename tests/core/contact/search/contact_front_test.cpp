@@ -37,6 +37,7 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
 class BrickLists : public NearLists {
  public:
   bool fill(const NearBricks& bricks) override {
+    ++fills;
     lists_[bricks.list] = {bricks.a, bricks.b};
     return true;
   }
@@ -48,6 +49,8 @@ class BrickLists : public NearLists {
     for (const auto& [list, bricks] : lists_) pairs.insert(bricks);
     return pairs;
   }
+
+  long fills = 0;
 
  private:
   std::map<int, std::array<int, 2>> lists_;
@@ -194,6 +197,30 @@ TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
     tree_b.follow(1e-3, 0);
     EXPECT_EQ(front.advance(), step == 0) << step;
     for (SoftBody* body : {&a, &b}) body->positions += 1e-3 * body->velocities;
+  }
+}
+
+/// A light node that rattles does not keep the bricks about it busy.
+TEST(ContactFront, BricksBesideAFastOneKeepTheirLists) {
+  SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
+  SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
+  SurfaceTree tree_a(contact_surface_of(a), a);
+  SurfaceTree tree_b(contact_surface_of(b), b);
+  BrickLists lists;
+  ContactFront front(tree_a, tree_b, 0.006, lists);
+  Eigen::Index corner = 0;
+  b.positions.rowwise().sum().minCoeff(&corner);
+  const double dt = 1e-3;
+  for (int step = 0; step < 20; ++step) {
+    lists.fills = 0;
+    b.velocities.row(corner) = Vec3(step % 2 == 0 ? 20 : -20, 0, 0);
+    tree_a.follow(dt, 0);
+    tree_b.follow(dt, 0);
+    static_cast<void>(front.advance());
+    const long listed = std::ssize(lists.listed());
+    EXPECT_GE(listed, 9);
+    EXPECT_LE(lists.fills, step == 0 ? listed : listed / 3) << step;
+    b.positions += dt * b.velocities;
   }
 }
 
