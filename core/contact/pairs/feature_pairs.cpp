@@ -221,10 +221,12 @@ void FeaturePairs::wake() {
     if (list.sleepers.empty()) continue;
     const double closer = front_.closer(row);
     const double coming = front_.moving_closer(row);
-    if (list.first_wake > closer + coming) continue;
+    // The gap that a pair keeps grows with the heights of the drawn skins.
+    const bool may_have_grown = (look_ + row) % SurfaceTree::kHeightLooks == 0;
+    if (list.first_wake > closer + coming && !may_have_grown) continue;
     list.first_wake = std::numeric_limits<double>::infinity();
     for (Sleeper& sleeper : list.sleepers) {
-      if (sleeper.wake <= closer + coming) look_at(sleeper, closer, coming);
+      if (sleeper.wake <= closer + coming || may_have_grown) look_at(sleeper, closer, coming);
       list.first_wake = std::min(list.first_wake, sleeper.wake);
     }
   }

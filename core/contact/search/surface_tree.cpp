@@ -14,7 +14,6 @@ namespace sprung {
 namespace {
 
 constexpr int kBricksOfCluster = 8;
-constexpr long kHeightLooks = 8;     // after which heights of the drawn skin are measured again
 constexpr double kMaxHeight = 0.15;  // bricks, of which contact takes account
 constexpr double kNormalWeight = 4;  // bricks that opposite normals are worth, halved, in grouping bricks
 

@@ -100,9 +100,10 @@ class SurfaceTree {
     if (velocities_[point].step != velocity_step_) find_velocity(point);
     return velocities_[point].value;
   }
+  static constexpr long kHeightLooks = 8;  // calls of follow()
   /// How far (m), at most, the drawn skin has been above the triangles about a point since begin(), or since asked: it
-  /// leaves them as bricks bend. Measured again every few calls of follow(); never less than before, since contact
-  /// that yields and presses in turn does not come to rest.
+  /// leaves them as bricks bend. Measured again every kHeightLooks calls of follow(); never less than before, since
+  /// contact that yields and presses in turn does not come to rest.
   [[nodiscard]] double height_about(int point);
   /// How often more a ray from `start` leaves the surface than it enters it: for a closed surface its winding number,
   /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
