@@ -131,7 +131,7 @@ struct MotionTime {
 /// those seen are like the last of them.
 MotionTime time_motion(const Simulation& simulation, Film film) {
   constexpr double kSeconds = 3;
-  constexpr double kCoarseSeconds = 2;
+  constexpr double kCoarseSeconds = 4;
   film.probes.clear();
   const RunClock clock(kSeconds);
   if (const std::optional<int> frames = frames_of_run(simulation, film, clock)) return {clock.seconds(), *frames};

@@ -18,7 +18,7 @@ struct Forecast {
 };
 
 /// Measures it: runs a copy of the simulation for up to 3 s, then, if it is not at its end, the scene with bricks twice
-/// as large for up to 2 s to see how contact goes on, and draws one picture. Throws Error if that fails.
+/// as large for up to 4 s to see how contact goes on, and draws one picture. Throws Error if that fails.
 [[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& film);
 
 /// Bytes, estimated from the numbers of bricks, vertices and pixels.
