@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <span>
 
@@ -37,6 +38,9 @@ int exit_code(int argc, const char* const* argv) {
     }
     console.error(error.what());
     return int(error.kind());
+  } catch (const std::filesystem::filesystem_error& error) {
+    console.error(fmt::format("cannot use '{}': {}", error.path1().string(), error.code().message()));
+    return kFailed;
   } catch (const std::bad_alloc&) {
     console.error("out of memory; fewer bricks, fewer frames or a smaller mesh need less");
     return kFailed;

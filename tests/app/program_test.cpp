@@ -87,6 +87,8 @@ TEST_F(Program, OutputsThatCannotBeWrittenAreSaidBeforeTheWork) {
     EXPECT_EQ(ended.err.find("simulate"), std::string::npos) << ended.err;
   }
   EXPECT_FALSE(exists("new"));
+  const std::string too_long(300, 'x');
+  expect_error(kTiny + " -o " + too_long + ".mp4", 1, "error: cannot use '" + too_long);
   expect_error(kTiny + " --bricks 6", 2, "--bricks is given 2 times");
 }
 
