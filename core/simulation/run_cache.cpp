@@ -176,7 +176,10 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
   return frame_count_;
 }
 
-void RunCache::open() { writer_ = std::make_unique<CacheWriter>(file_, header_, memory_size_); }
+void RunCache::open() {
+  make_folder(file_.parent_path());
+  writer_ = std::make_unique<CacheWriter>(file_, header_, memory_size_);
+}
 
 /// Copied before the new file takes the name of the old one: whenever the program is killed, one of them is complete.
 void RunCache::copy_old_frames() {

@@ -42,7 +42,8 @@ class RunCache {
   /// `position_error` (m), velocities to within that per frame; 0: exactly. Throws Error(kBadInput) if the file is not
   /// a cache, Error(kFailed) if another run is writing it.
   RunCache(std::filesystem::path file, SceneRecord record, bool resume, double position_error = 0);
-  /// Frames stay in memory until the run has taken `patience` (s); one that ends before that leaves no file.
+  /// Frames stay in memory until the run has taken `patience` (s); one that ends before that leaves no file. The file's
+  /// folder is made with it.
   void wait_for(double patience) { patience_ = patience; }
   ~RunCache();
 

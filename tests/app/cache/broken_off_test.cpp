@@ -121,6 +121,15 @@ TEST_F(BrokenOff, AFilmKeepsItsMotionUntilItIsWhole) {
   EXPECT_EQ(text_of(folder_.path() / "film.mp4"), straight);
 }
 
+TEST_F(BrokenOff, AMotionIsKeptInAFolderThatIsNotYetMade) {
+  const ProgramRun made =
+      run_program(folder_, "animate cube.obj --material gelatin --bricks " + kFew +
+                               " --duration 0.2 --resolution 64x36 -o new/pictures/ --jobs 1 --keep-after 0s");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(fs::exists(folder_.path() / "new/pictures/frame_0001.png"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "new/pictures/unfinished.h5"));
+}
+
 TEST_F(BrokenOff, ByAVanishedFolderItSaysSo) {
   fs::create_directory(folder_.path() / "shelf");
   RunningProgram program(folder_, words_in(kShortFrames + "shelf/run.h5"));
