@@ -38,18 +38,16 @@ double ContactFront::moving_closer(int a, int b) const {
   return reach_between(a_.motion(a).moving, b_.motion(b).moving);
 }
 
-double ContactFront::bricks_moved_closer(int a, int b) {
-  const int one = a_.brick_of(a_.nodes()[a]);
-  const int other = b_.brick_of(b_.nodes()[b]);
-  if (is_self()) return reach_between(a_.own_brick_motion(one).moved, a_.own_brick_motion(other).moved);
-  return reach_between(a_.brick_motion(one).moved, b_.brick_motion(other).moved);
+const SurfaceTree::Motion& ContactFront::brick_motion(SurfaceTree& tree, int leaf) const {
+  return tree.brick_motion(tree.brick_of(tree.nodes()[leaf]), is_self());
 }
 
-double ContactFront::bricks_moving_closer(int a, int b) {
-  const int one = a_.brick_of(a_.nodes()[a]);
-  const int other = b_.brick_of(b_.nodes()[b]);
-  if (is_self()) return reach_between(a_.own_brick_motion(one).moving, a_.own_brick_motion(other).moving);
-  return reach_between(a_.brick_motion(one).moving, b_.brick_motion(other).moving);
+double ContactFront::bricks_moved_closer(int a, int b) const {
+  return reach_between(brick_motion(a_, a).moved, brick_motion(b_, b).moved);
+}
+
+double ContactFront::bricks_moving_closer(int a, int b) const {
+  return reach_between(brick_motion(a_, a).moving, brick_motion(b_, b).moving);
 }
 
 bool ContactFront::advance() {

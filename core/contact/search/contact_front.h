@@ -94,8 +94,9 @@ class ContactFront {
   [[nodiscard]] double moved_closer(int a, int b) const;
   [[nodiscard]] double moving_closer(int a, int b) const;
   /// Likewise of two leaves.
-  [[nodiscard]] double bricks_moved_closer(int a, int b);
-  [[nodiscard]] double bricks_moving_closer(int a, int b);
+  [[nodiscard]] double bricks_moved_closer(int a, int b) const;
+  [[nodiscard]] double bricks_moving_closer(int a, int b) const;
+  [[nodiscard]] const SurfaceTree::Motion& brick_motion(SurfaceTree& tree, int leaf) const;
   [[nodiscard]] std::size_t block_of(int a, int b);
   void keep(int a, int b, double budget);
   /// Stores the replacements of a pair of subtrees that is due; `number`: of it among those watched, or -1.

@@ -36,11 +36,6 @@ NormalCone cone_of(const Points& normals) {
   return {axis, std::acos(std::clamp((normals * axis).minCoeff(), -1.0, 1.0))};
 }
 
-void make_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 /// A brick, and those that share a node with it.
 std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, int brick) {
   std::vector<int> around;
@@ -50,7 +45,7 @@ std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, in
       around.push_back(at_nodes.corners[i] / 8);
     }
   }
-  make_unique(around);
+  sort_unique(around);
   return around;
 }
 
@@ -84,18 +79,23 @@ std::vector<std::vector<int>> connected_among(const std::vector<int>& bricks, co
         const std::vector<int> around = bricks_around(body, at_nodes, brick);
         further.insert(further.end(), around.begin(), around.end());
       }
-      make_unique(further);
+      sort_unique(further);
       reached = std::move(further);
     }
     for (const int brick : reached) {
       if (row_of[brick] >= 0) connected[row].push_back(row_of[brick]);
     }
-    make_unique(connected[row]);
+    sort_unique(connected[row]);
   }
   return connected;
 }
 
 }  // namespace
+
+void sort_unique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 
 ContactSurface::ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners,
                                const Embedding& skin, const std::vector<int>& beneath) {

@@ -63,6 +63,9 @@ struct ContactSurface {
 inline constexpr double kFacing = 0.2;
 inline constexpr double kBent = 0.5;
 
+/// Sorts them and removes repetitions.
+void sort_unique(std::vector<int>& values);
+
 /// A normal of the skin at rest transformed with its brick, unit.
 [[nodiscard]] Vec3 carried_normal(const Body& body, int brick, const Vec3& normal);
 

@@ -53,11 +53,6 @@ bool meets(const AlignedBox& box, const Vec3& start, const Vec3& end) {
   return first <= last;
 }
 
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 constexpr Eigen::Index kFitted = 64;  // about this many points suffice
 
 /// The least-squares rigid motion of vectors at some of these positions.
@@ -85,8 +80,7 @@ SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
   if (count > 0) add_node(0, count, -1, features);
   list_points_of_bricks();
   list_nodes_of_clusters();
-  brick_motions_.resize(skin.bricks.size());
-  own_brick_motions_.resize(skin.bricks.size());
+  for (auto& motions : brick_motions_) motions.resize(skin.bricks.size());
   motions_.resize(nodes_.size());
   own_motions_.resize(nodes_.size());
   boxes_.resize(nodes_.size());
@@ -231,15 +225,9 @@ SurfaceTree::Motion SurfaceTree::find_brick_motion(int brick, bool is_own) {
           {moving.center(), moving.diagonal().norm() / 2 + (is_own ? own_ahead_ : distance_ahead_)}};
 }
 
-const SurfaceTree::Motion& SurfaceTree::brick_motion(int brick) {
-  Cached<Motion>& motion = brick_motions_[brick];
-  if (motion.step != look_) motion = {find_brick_motion(brick, false), look_};
-  return motion.value;
-}
-
-const SurfaceTree::Motion& SurfaceTree::own_brick_motion(int brick) {
-  Cached<Motion>& motion = own_brick_motions_[brick];
-  if (motion.step != look_) motion = {find_brick_motion(brick, true), look_};
+const SurfaceTree::Motion& SurfaceTree::brick_motion(int brick, bool is_own) {
+  Cached<Motion>& motion = brick_motions_[is_own][brick];
+  if (motion.step != look_) motion = {find_brick_motion(brick, is_own), look_};
   return motion.value;
 }
 

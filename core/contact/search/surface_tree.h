@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "core/contact/search/contact_surface.h"
@@ -38,8 +39,7 @@ class SurfaceTree {
   void begin() {
     followed_ = body_.positions;
     look_ = 0;
-    std::fill(brick_motions_.begin(), brick_motions_.end(), Cached<Motion>{});
-    std::fill(own_brick_motions_.begin(), own_brick_motions_.end(), Cached<Motion>{});
+    for (auto& motions : brick_motions_) std::fill(motions.begin(), motions.end(), Cached<Motion>{});
     std::fill(heights_.begin(), heights_.end(), Cached<double>{});
     std::fill(heights_about_.begin(), heights_about_.end(), Cached<double>{});
     refresh();
@@ -78,9 +78,8 @@ class SurfaceTree {
   /// The same relative to the rigid motion of the body, which brings no two of its points closer; for bodies that
   /// collide with themselves, and surfaces with triangles.
   [[nodiscard]] const Motion& own_motion(int node) const { return own_motions_[node]; }
-  /// Those of one brick of the skin, which are tighter than a subtree's.
-  [[nodiscard]] const Motion& brick_motion(int brick);
-  [[nodiscard]] const Motion& own_brick_motion(int brick);
+  /// That of one brick of the skin, or its own, which is tighter than a subtree's.
+  [[nodiscard]] const Motion& brick_motion(int brick, bool is_own);
   /// The topmost node that always has the same motions: that of its cluster, or itself.
   [[nodiscard]] int cluster_node(int node) const {
     return nodes_[node].cluster < 0 ? node : cluster_nodes_[nodes_[node].cluster];
@@ -160,11 +159,11 @@ class SurfaceTree {
   std::vector<Cached<Vec3>> positions_;  // by point
   std::vector<Cached<Vec3>> normals_;
   std::vector<Cached<Vec3>> velocities_;
-  std::vector<Cached<Motion>> brick_motions_;      // by brick of the skin, of that many calls of follow()
-  std::vector<Cached<Motion>> own_brick_motions_;  // likewise
-  long look_ = 0;                                  // calls of follow()
-  std::vector<Cached<double>> heights_;            // by triangle, of that many calls
-  std::vector<Cached<double>> heights_about_;      // by point, likewise
+  /// By whether they are own, and brick of the skin; of that many calls of follow().
+  std::array<std::vector<Cached<Motion>>, 2> brick_motions_;
+  long look_ = 0;                              // calls of follow()
+  std::vector<Cached<double>> heights_;        // by triangle, of that many calls
+  std::vector<Cached<double>> heights_about_;  // by point, likewise
 };
 
 }  // namespace sprung

@@ -183,44 +183,44 @@ TEST(ContactFront, NoPairOfABodyWithItselfSleepsThatCanTouch) {
   EXPECT_EQ(missed, 0);
 }
 
-/// Bodies that fall and rotate together are checked once.
-TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
+/// Two boxes of 3 x 3 x 3 bricks, a quarter of a brick apart.
+struct BoxesAboveEachOther {
   SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
   SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
-  SurfaceTree tree_a(contact_surface_of(a), a);
-  SurfaceTree tree_b(contact_surface_of(b), b);
+  SurfaceTree tree_a{contact_surface_of(a), a};
+  SurfaceTree tree_b{contact_surface_of(b), b};
   BrickLists lists;
-  ContactFront front(tree_a, tree_b, 0.006, lists);
-  for (SoftBody* body : {&a, &b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
-  for (int step = 0; step < 100; ++step) {
-    tree_a.follow(1e-3, 0);
-    tree_b.follow(1e-3, 0);
-    EXPECT_EQ(front.advance(), step == 0) << step;
-    for (SoftBody* body : {&a, &b}) body->positions += 1e-3 * body->velocities;
+  ContactFront front{tree_a, tree_b, 0.006, lists};
+
+  /// Advances the front, then the bodies. Returns whether any list has changed.
+  bool step(double dt) {
+    tree_a.follow(dt, 0);
+    tree_b.follow(dt, 0);
+    const bool has_changed = front.advance();
+    for (SoftBody* body : {&a, &b}) body->positions += dt * body->velocities;
+    return has_changed;
   }
+};
+
+/// Bodies that fall and rotate together are checked once.
+TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
+  BoxesAboveEachOther boxes;
+  for (SoftBody* body : {&boxes.a, &boxes.b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
+  for (int step = 0; step < 100; ++step) EXPECT_EQ(boxes.step(1e-3), step == 0) << step;
 }
 
 /// A light node that rattles does not keep the bricks about it busy.
 TEST(ContactFront, BricksBesideAFastOneKeepTheirLists) {
-  SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
-  SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
-  SurfaceTree tree_a(contact_surface_of(a), a);
-  SurfaceTree tree_b(contact_surface_of(b), b);
-  BrickLists lists;
-  ContactFront front(tree_a, tree_b, 0.006, lists);
+  BoxesAboveEachOther boxes;
   Eigen::Index corner = 0;
-  b.positions.rowwise().sum().minCoeff(&corner);
-  const double dt = 1e-3;
+  boxes.b.positions.rowwise().sum().minCoeff(&corner);
   for (int step = 0; step < 20; ++step) {
-    lists.fills = 0;
-    b.velocities.row(corner) = Vec3(step % 2 == 0 ? 20 : -20, 0, 0);
-    tree_a.follow(dt, 0);
-    tree_b.follow(dt, 0);
-    static_cast<void>(front.advance());
-    const long listed = std::ssize(lists.listed());
+    boxes.lists.fills = 0;
+    boxes.b.velocities.row(corner) = Vec3(step % 2 == 0 ? 20 : -20, 0, 0);
+    static_cast<void>(boxes.step(1e-3));
+    const long listed = std::ssize(boxes.lists.listed());
     EXPECT_GE(listed, 9);
-    EXPECT_LE(lists.fills, step == 0 ? listed : listed / 3) << step;
-    b.positions += dt * b.velocities;
+    EXPECT_LE(boxes.lists.fills, step == 0 ? listed : listed / 3) << step;
   }
 }
 
