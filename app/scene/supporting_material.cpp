@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -28,15 +29,15 @@ constexpr double kSag = 0.04;
 constexpr double kOverload = 2;             // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;     // times the displacement, at most
 constexpr double kKeptMargin = 0.6;         // of the distance from the centre of mass to the edge of the feet
-constexpr double kHopeless = 2;             // times the sag by the linear solution: not worth a nonlinear one
+constexpr double kHopeless = 1.5;           // times the displacement allowed: not worth going on
 constexpr int kHalvings = 4;                // of the size
 constexpr double kStandingFraction = 0.04;  // of the height, as round bodies flatten, ...
 constexpr double kHangingFraction = 0.08;   // ... or as the scenario pins, ...
 constexpr double kSupportedBricks = 0.5;    // ... but at least so many bricks: these may be askew
 constexpr double kFill = 0.25;              // a brick is taken to be at least that full
 
-// What does not converge quickly is near buckling.
-const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
+// Sags are told to a thousandth; what does not converge quickly is near buckling.
+const StaticOptions kQuick{.tolerance = 1e-3, .max_iterations = 20, .max_load_steps = 1};
 
 /// Elastomers, the softest first.
 std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
@@ -131,26 +132,13 @@ class StandingBody {
     }
   }
 
-  /// The largest displacement of a node, m; none if there is no equilibrium.
-  std::optional<double> displacement(double weight, bool is_linear) {
-    double largest = 0;
-    for (std::size_t row = 0; row < solids_.size(); ++row) {
+  /// The largest displacement of a node by the linear solution, m; none if the supports leave a solid free to move.
+  std::optional<double> linear_displacement() {
+    return largest_displacement(1, [this](std::size_t row, const Points& loads) {
       Body& body = solids_[row];
-      body.positions = body.rest_positions;
-      const Points loads = weight * body.masses * gravity_.transpose();
-      try {
-        if (is_linear) {
-          const Points still = Points::Zero(body.node_count(), 3);
-          body.positions += linear_response(body, supports_[row], loads, still, *systems_[row]).displacements;
-        } else {
-          solve_static(body, supports_[row], loads, body.rest_positions, *systems_[row], kQuick);
-        }
-      } catch (const Error&) {
-        return std::nullopt;
-      }
-      largest = std::max(largest, (body.positions - body.rest_positions).rowwise().norm().maxCoeff());
-    }
-    return largest;
+      const Points still = Points::Zero(body.node_count(), 3);
+      body.positions += linear_response(body, supports_[row], loads, still, *systems_[row]).displacements;
+    });
   }
 
   /// s, at rest and at full size.
@@ -166,17 +154,52 @@ class StandingBody {
   /// The largest displacement of a node, m, if the body keeps its shape: it is no more than `most`, and a single solid
   /// does not lean so far that it would topple.
   std::optional<double> carried_displacement(double weight, double most) {
-    const std::optional<double> once = displacement(weight, false);
-    if (!once || *once > most) return std::nullopt;
+    const std::optional<double> once = displacement(weight, most);
+    if (!once) return std::nullopt;
     if (support_ == Support::kStands && solids_.size() == 1) {
       const Body& body = solids_[0];
       if (margin(body, body.positions) < kKeptMargin * margin(body, body.rest_positions)) return std::nullopt;
     }
-    const std::optional<double> more = displacement(kOverload * weight, false);
-    return more && *more <= kOverloadResponse * *once ? once : std::nullopt;
+    return displacement(kOverload * weight, kOverloadResponse * *once) ? once : std::nullopt;
   }
 
  private:
+  /// The largest displacement of a node of a solid, m.
+  static double displacement(const Body& body) {
+    return (body.positions - body.rest_positions).rowwise().norm().maxCoeff();
+  }
+
+  /// The largest displacement of a node, m, in the equilibria that `solve(row, loads)` moves the solids to; none if one
+  /// throws Error.
+  std::optional<double> largest_displacement(double weight,
+                                             const std::function<void(std::size_t, const Points&)>& solve) {
+    double largest = 0;
+    for (std::size_t row = 0; row < solids_.size(); ++row) {
+      Body& body = solids_[row];
+      body.positions = body.rest_positions;
+      try {
+        solve(row, weight * body.masses * gravity_.transpose());
+      } catch (const Error&) {
+        return std::nullopt;
+      }
+      largest = std::max(largest, displacement(body));
+    }
+    return largest;
+  }
+
+  /// The largest displacement of a node in equilibrium, m; none if there is no equilibrium or it is more than `most`.
+  std::optional<double> displacement(double weight, double most) {
+    const std::optional<double> largest = largest_displacement(weight, [&](std::size_t row, const Points& loads) {
+      Body& body = solids_[row];
+      StaticOptions options = kQuick;
+      options.between = [&] {
+        if (displacement(body) > kHopeless * most) throw Error(ErrorKind::kFailed, "sags too far");
+      };
+      solve_static(body, supports_[row], loads, body.rest_positions, *systems_[row], options);
+    });
+    return largest && *largest <= most ? largest : std::nullopt;
+  }
+
   /// Along the ground, from the centre of mass to the nearest edge of the convex hull of the fixed nodes, m; negative
   /// if it is outside.
   [[nodiscard]] double margin(const Body& body, const Points& positions) const {
@@ -220,7 +243,7 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
     coarse.bricks = kBricks;
     coarse.brick_size.reset();
   }
-  const LoadedBody loaded = load_body(coarse, Observer());
+  const LoadedBody loaded = load_solids(coarse, Observer());
   const double size = loaded.extent.maxCoeff();
   const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
   std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size, body.model);
@@ -229,22 +252,32 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
   if (coarser > 1) grids = filled(loaded, loaded.brick_size * coarser, body.model);
   StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support, body.pins,
                         Selector(loaded), world_from_bricks.transpose() * gravity);
-  const std::optional<double> linear = standing.displacement(1, true);
+  const std::optional<double> linear = standing.linear_displacement();
   if (!linear || *linear <= 0) return std::nullopt;
 
   for (int halving = 0; halving <= (may_shrink ? kHalvings : 0); ++halving) {
     const double scale = std::pow(0.5, halving);
     double sag = 0;  // m, at full size and of the softest that was seen to carry
+    // Of the reference material at full size, the weight that displaces it as much.
+    const auto weight_of = [&](const LibraryMaterial* material) {
+      return scale * material->density / reference.density * reference.young / material->young;
+    };
+    const auto sags_beyond = [&](double most) {
+      return [&, most](const LibraryMaterial* material) { return weight_of(material) * *linear > most; };
+    };
     const auto fails = [&](const LibraryMaterial* material) {
       observer.check_interrupt();
-      // The weight that displaces the reference material at full size as much.
-      const double weight = scale * material->density / reference.density * reference.young / material->young;
-      if (weight * *linear > kHopeless * kSag * size) return true;
-      const std::optional<double> carried = standing.carried_displacement(weight, kSag * size);
+      const std::optional<double> carried = standing.carried_displacement(weight_of(material), kSag * size);
       if (carried) sag = *carried;
       return !carried;
     };
-    const auto softest = std::partition_point(materials.begin(), materials.end(), fails);
+    // Few equilibria are needed where the search begins with what carries the body by the linear solution.
+    const auto possible =
+        std::partition_point(materials.begin(), materials.end(), sags_beyond(kHopeless * kSag * size));
+    const auto likely = std::partition_point(possible, materials.end(), sags_beyond(kSag * size));
+    if (likely == materials.end()) continue;
+    const auto softest = fails(*likely) ? std::partition_point(likely + 1, materials.end(), fails)
+                                        : std::partition_point(possible, likely, fails);
     if (softest == materials.end()) continue;
     const double faster = wave_speed((*softest)->material()) / wave_speed(reference.material()) / scale;
     return SupportingMaterial{.material = *softest,

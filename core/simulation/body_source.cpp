@@ -257,7 +257,7 @@ void check_body(const SceneBody& body, const std::string& name) {
 
 }  // namespace
 
-LoadedBody load_body(const SceneBody& body, const Observer& observer) {
+LoadedBody load_solids(const SceneBody& body, const Observer& observer) {
   check_body(body, body.surface ? "the mesh" : body.mesh.filename().string());
   LoadedBody loaded;
   if (body.box) {
@@ -278,8 +278,13 @@ LoadedBody load_body(const SceneBody& body, const Observer& observer) {
   }
   loaded.repairs = std::move(found.repairs);
   loaded.solids = std::move(found.solids);
-  for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
   if (loaded.solids.size() > 1) loaded.grid.reset();
+  return loaded;
+}
+
+LoadedBody load_body(const SceneBody& body, const Observer& observer) {
+  LoadedBody loaded = load_solids(body, observer);
+  for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
   if (body.box) return loaded;
   loaded.walls = sample_walls(loaded);
   if (body.bricks && body.bricks->is_auto()) {

@@ -26,7 +26,11 @@ struct LoadedBody {
   std::optional<BrickGrid> grid;                                // of a box; none for a mesh, which is yet to be filled
 };
 
-/// Makes the box, or reads and scales the mesh and finds its solids; reports what was chosen or repaired. Throws
+/// Makes the box, or reads and scales the mesh, and finds its solids; reports what was repaired. The walls are not yet
+/// measured, and the volumes of solids that overlap themselves count overlaps twice. Throws Error(kBadInput).
+[[nodiscard]] LoadedBody load_solids(const SceneBody& body, const Observer& observer);
+
+/// load_solids(), with the volumes enclosed, the walls, and the brick size chosen where it is "auto". Throws
 /// Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Observer& observer);
 
