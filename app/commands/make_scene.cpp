@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kShortestDrop = 2;  // s; between these it ends once it has come to rest
 constexpr double kLongestDrop = 4;
-constexpr double kLowestDrop = 0.03;   // sizes
+constexpr double kRoundRise = 0.005;   // sizes: what tips over by so small a rise of its centre of mass is round, ...
+constexpr double kRoundDrop = 0.03;    // ... may roll, and falls from here
 constexpr double kWorthTelling = 0.2;  // rad, of a rotation
 
 bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
@@ -102,7 +103,7 @@ Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
   placement.sides = points.colwise().maxCoeff() - points.colwise().minCoeff();
   if (may_lie) {
     const double rise = tipping_rise(points, rolled * centre) / placement.sides.maxCoeff();
-    placement.drop = std::clamp(rise, kLowestDrop, kDropHeight);
+    placement.drop = rise < kRoundRise ? kRoundDrop : std::min(rise, kDropHeight);
   }
   return placement;
 }

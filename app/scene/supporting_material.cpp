@@ -37,7 +37,7 @@ constexpr double kSupportedBricks = 0.5;    // ... but at least so many bricks: 
 constexpr double kFill = 0.25;              // a brick is taken to be at least that full
 
 // Sags are told to a thousandth; what does not converge quickly is near buckling.
-const StaticOptions kQuick{.tolerance = 1e-3, .max_iterations = 20, .max_load_steps = 1};
+const StaticOptions kQuick{.tolerance = 1e-3, .direction_tolerance = 1e-2, .max_iterations = 20, .max_load_steps = 1};
 
 /// Elastomers, the softest first.
 std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
@@ -134,26 +134,25 @@ class StandingBody {
 
   /// The largest displacement of a node by the linear solution, m; none if the supports leave a solid free to move.
   std::optional<double> linear_displacement() {
-    return largest_displacement(1, [this](std::size_t row, const Points& loads) {
+    return displaced([this](std::size_t row) {
       Body& body = solids_[row];
       const Points still = Points::Zero(body.node_count(), 3);
-      body.positions += linear_response(body, supports_[row], loads, still, *systems_[row]).displacements;
+      body.positions += linear_response(body, supports_[row], load(row, 1), still, *systems_[row]).displacements;
     });
   }
 
   /// s, at rest and at full size.
   [[nodiscard]] double stable_step() {
     double shortest = std::numeric_limits<double>::infinity();
-    for (Body& body : solids_) {
-      body.positions = body.rest_positions;
-      shortest = std::min(shortest, sprung::stable_step(body));
-    }
+    rest();
+    for (const Body& body : solids_) shortest = std::min(shortest, sprung::stable_step(body));
     return shortest;
   }
 
   /// The largest displacement of a node, m, if the body keeps its shape: it is no more than `most`, and a single solid
   /// does not lean so far that it would topple.
   std::optional<double> carried_displacement(double weight, double most) {
+    rest();
     const std::optional<double> once = displacement(weight, most);
     if (!once) return std::nullopt;
     if (support_ == Support::kStands && solids_.size() == 1) {
@@ -169,33 +168,40 @@ class StandingBody {
     return (body.positions - body.rest_positions).rowwise().norm().maxCoeff();
   }
 
-  /// The largest displacement of a node, m, in the equilibria that `solve(row, loads)` moves the solids to; none if one
-  /// throws Error.
-  std::optional<double> largest_displacement(double weight,
-                                             const std::function<void(std::size_t, const Points&)>& solve) {
+  /// N on each node of a solid, of that multiple of its weight.
+  [[nodiscard]] Points load(std::size_t row, double weight) const {
+    return weight * solids_[row].masses * gravity_.transpose();
+  }
+
+  void rest() {
+    for (Body& body : solids_) body.positions = body.rest_positions;
+  }
+
+  /// The largest displacement of a node, m, after `move(row)` has moved every solid; none if that throws Error.
+  std::optional<double> displaced(const std::function<void(std::size_t)>& move) {
     double largest = 0;
     for (std::size_t row = 0; row < solids_.size(); ++row) {
-      Body& body = solids_[row];
-      body.positions = body.rest_positions;
       try {
-        solve(row, weight * body.masses * gravity_.transpose());
+        move(row);
       } catch (const Error&) {
         return std::nullopt;
       }
-      largest = std::max(largest, displacement(body));
+      largest = std::max(largest, displacement(solids_[row]));
     }
     return largest;
   }
 
-  /// The largest displacement of a node in equilibrium, m; none if there is no equilibrium or it is more than `most`.
+  /// The largest displacement of a node in the equilibrium that is found from where the solids are, m; none if there is
+  /// none or it is more than `most`.
   std::optional<double> displacement(double weight, double most) {
-    const std::optional<double> largest = largest_displacement(weight, [&](std::size_t row, const Points& loads) {
+    const std::optional<double> largest = displaced([&](std::size_t row) {
       Body& body = solids_[row];
       StaticOptions options = kQuick;
       options.between = [&] {
         if (displacement(body) > kHopeless * most) throw Error(ErrorKind::kFailed, "sags too far");
       };
-      solve_static(body, supports_[row], loads, body.rest_positions, *systems_[row], options);
+      const Points start = body.positions;
+      solve_static(body, supports_[row], load(row, weight), start, *systems_[row], options);
     });
     return largest && *largest <= most ? largest : std::nullopt;
   }
@@ -255,6 +261,7 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
   const std::optional<double> linear = standing.linear_displacement();
   if (!linear || *linear <= 0) return std::nullopt;
 
+  double lightest_failing = std::numeric_limits<double>::infinity();  // of the reference material at full size
   for (int halving = 0; halving <= (may_shrink ? kHalvings : 0); ++halving) {
     const double scale = std::pow(0.5, halving);
     double sag = 0;  // m, at full size and of the softest that was seen to carry
@@ -267,17 +274,24 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
     };
     const auto fails = [&](const LibraryMaterial* material) {
       observer.check_interrupt();
-      const std::optional<double> carried = standing.carried_displacement(weight_of(material), kSag * size);
-      if (carried) sag = *carried;
+      const double weight = weight_of(material);
+      if (weight >= lightest_failing) return true;
+      const std::optional<double> carried = standing.carried_displacement(weight, kSag * size);
+      if (carried) {
+        sag = *carried;
+      } else {
+        lightest_failing = weight;
+      }
       return !carried;
     };
     // Few equilibria are needed where the search begins with what carries the body by the linear solution.
-    const auto possible =
-        std::partition_point(materials.begin(), materials.end(), sags_beyond(kHopeless * kSag * size));
-    const auto likely = std::partition_point(possible, materials.end(), sags_beyond(kSag * size));
-    if (likely == materials.end()) continue;
-    const auto softest = fails(*likely) ? std::partition_point(likely + 1, materials.end(), fails)
-                                        : std::partition_point(possible, likely, fails);
+    auto from = std::partition_point(materials.begin(), materials.end(), sags_beyond(kHopeless * kSag * size));
+    auto to = std::partition_point(from, materials.end(), sags_beyond(kSag * size));
+    for (std::ptrdiff_t further = 1; to != materials.end() && fails(*to); further *= 2) {
+      from = to + 1;
+      to += std::min(further, materials.end() - to);
+    }
+    const auto softest = std::partition_point(from, to, fails);
     if (softest == materials.end()) continue;
     const double faster = wave_speed((*softest)->material()) / wave_speed(reference.material()) / scale;
     return SupportingMaterial{.material = *softest,

@@ -25,8 +25,8 @@ enum class Support {
 /// equilibrium under `gravity` (m/s^2) is at most 4 % of the size, its centre of mass keeps 60 % of its distance to the
 /// edge of its feet, so that it does not topple, and twice the weight displaces it by at most three times as much, so
 /// that it does not buckle. At equal Poisson's ratio, shapes depend on rho g L / E alone; so one coarse grid of 16
-/// bricks or fewer serves all materials and sizes, and bisection, which begins with what carries the body by the linear
-/// solution, finds the heaviest load that is supported.
+/// bricks or fewer serves all materials and sizes, and a search that begins with what carries the body by the linear
+/// solution finds the heaviest load that is supported.
 /// `may_shrink`: whether the size (m) may be halved up to four times. None if nothing supports it. Throws
 /// Error(kBadInput) for a bad mesh.
 [[nodiscard]] std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Support support,

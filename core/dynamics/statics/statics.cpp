@@ -102,9 +102,9 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
 
 namespace {
 
-constexpr double kLongestStep = 0.5;       // body lengths; a longer one is useless
-constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method corrects the rest
+constexpr double kLongestStep = 0.5;  // body lengths; a longer one is useless
 constexpr double kLinearTolerance = 1e-11;
+constexpr double kPreconditioning = 1e-4;
 constexpr double kFirstMove = 0.1;  // bricks, along a direction of negative curvature
 constexpr double kFarthest = 1024;  // times as far
 
@@ -171,12 +171,12 @@ class Equilibrium {
   /// ridges into crushed bricks. False if no step lowers the energy any more.
   bool step(const Eigen::VectorXd& residual) {
     if (system_.linearize(body_, supports_, false, terms_)) {
-      const Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
+      const Eigen::VectorXd direction = system_.solve(residual, options_.direction_tolerance);
       if (is_short(direction)) return search_along(direction, residual) > 0;
       if (!has_springs(body_.model) && descend(system_.downhill(), residual)) return true;
     }
     if (!system_.linearize(body_, supports_, true, terms_)) return false;
-    const Eigen::VectorXd direction = shortened(system_.solve(residual, kNewtonTolerance));
+    const Eigen::VectorXd direction = shortened(system_.solve(residual, options_.direction_tolerance));
     return direction.size() > 0 && search_along(direction, residual) > 0;
   }
 
@@ -323,7 +323,7 @@ Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const P
         forces, {.tolerance = kLinearTolerance, .fallback_tolerance = kLinearTolerance, .max_iterations = 200},
         [&](const Eigen::VectorXd& x, Eigen::VectorXd& product) { product = stiffness.times(x); },
         [&](const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
-          correction = definite_solver->solve(residual, kNewtonTolerance);
+          correction = definite_solver->solve(residual, kPreconditioning);
           if (correction.size() == 0) correction.setZero(residual.size());
         },
         report);

@@ -18,8 +18,9 @@ struct LinearResponse {
                                              const Points& movements, LinearSolver& system);
 
 struct StaticOptions {
-  double tolerance = 1e-9;   // largest residual force on a free node over the largest force at work (loads, reactions)
-  int max_iterations = 200;  // of Newton's method, in each load step
+  double tolerance = 1e-9;  // largest residual force on a free node over the largest force at work (loads, reactions)
+  double direction_tolerance = 1e-4;  // residual of a direction of Newton's method over its forces
+  int max_iterations = 200;           // of Newton's method, in each load step
   int max_iterations_in_all = 1000;
   int max_load_steps = 256;         // the load is split into ever more steps if Newton's method does not converge
   std::function<void()> between{};  // called before every iteration; may throw

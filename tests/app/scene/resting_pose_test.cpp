@@ -101,5 +101,18 @@ TEST(RestingPose, IsWrittenIntoTheSceneOfADroppedMesh) {
   EXPECT_EQ(first_rotation("--set 'body.rotation=[0,0,0]'"), "rotation = [0, 0, 0]");
 }
 
+/// Its centre of mass has to rise by 0.0154 of its height before it tips over.
+TEST(RestingPose, ASlenderMeshFallsNoHigherThanItMustRiseToTipOver) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("tower.obj",
+                                 "v 0 0 0\nv 1 0 0\nv 1 4 0\nv 0 4 0\nv 0 0 1\nv 1 0 1\nv 1 4 1\nv 0 4 1\n"
+                                 "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+  const ProgramRun run = run_program(folder, "animate tower.obj --size 1m --material rubber --print-scene");
+  const std::string before = "\nposition = [0, ";
+  const std::size_t at = run.out.find(before);
+  ASSERT_NE(at, std::string::npos) << run.out << run.err;
+  EXPECT_NEAR(std::stod(run.out.substr(at + before.size())), (std::sqrt(4.25) - 2) / 4, 2e-4);
+}
+
 }  // namespace
 }  // namespace sprung
