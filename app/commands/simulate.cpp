@@ -14,6 +14,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
 #include "app/console/crossings_json.h"
+#include "app/console/material_json.h"
 #include "app/film/draw_diverged.h"
 #include "app/film/film_output.h"
 #include "app/inspect/forecast.h"
@@ -173,6 +174,17 @@ Json probes_json(const Recording& recording) {
           {"probes", tracks}};
 }
 
+/// The bodies of a scene as resolved: of which material, and how large where that is given (m).
+Json bodies_json(const Film& film) {
+  Json bodies = Json::array();
+  for (const SceneBody& body : film.bodies) {
+    bodies.push_back({{"mesh", body.mesh.empty() ? Json() : Json(body.mesh.filename().string())},
+                      {"size", body.size ? Json(*body.size) : Json()},
+                      {"material", json_of(body.material)}});
+  }
+  return bodies;
+}
+
 /// In how many steps the guard against crossings acted, by its means.
 Json json_of(const GuardCounts& counts) {
   return {{"steps", counts.steps},
@@ -235,13 +247,14 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
     }
     if (!options.json) return print_summary(recording);
     Json json = probes_json(recording);
+    json["bodies"] = bodies_json(with_defaults(film));
     json["crossings"] = json_of(recording.crossings);
     if (is_motion(film)) json["inverted_bricks"] = recording.inverted_bricks;
     if (recording.guard.steps > 0) {
       json["brick_steps"] = recording.brick_steps;
       json["guard"] = json_of(recording.guard);
     }
-    fmt::print("{}\n", json.dump(1));
+    fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
   });
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/console/console.h"
+#include "app/console/material_json.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/mesh/repair/weld.h"
 #include "core/simulation/thin_part_error.h"
@@ -98,6 +99,7 @@ Inspection inspect(const Preparation& prepared, const Film& film) {
     BodyFacts facts;
     facts.name = body.name;
     facts.extent = body.extent;
+    facts.material = film.bodies[row].material;
     facts.unit = 1 / body.file_from_rest.linear().col(0).norm();
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
@@ -234,6 +236,7 @@ Json json_of(const BodyFacts& body) {
   return {{"name", body.name},
           {"unit", body.unit},
           {"extent", {body.extent.x(), body.extent.y(), body.extent.z()}},
+          {"material", json_of(body.material)},
           {"mesh", json_of(body.mesh)},
           {"bricks", json_of(body.bricks, body.unit)}};
 }

@@ -41,6 +41,7 @@ struct BodyFacts {
   std::string name;
   double unit = 1;             // m per unit of the file
   Vec3 extent = Vec3::Zero();  // m
+  Material material;           // without that of its regions
   MeshFacts mesh;
   BrickFacts bricks;
 };

@@ -128,6 +128,18 @@ TEST_F(Inspect, ForecastsTheFramesOfAFilmThatEndsAtRest) {
   EXPECT_NE(cache.find("frames " + frames + " of at most"), std::string::npos) << cache;
 }
 
+/// Of a bare mesh for which sprung chooses a material.
+TEST_F(Inspect, TellsTheMaterialAndTheSizeThatWereChosenAsSimulateDoes) {
+  const nlohmann::json seen = nlohmann::json::parse(run("cube.obj --bricks 4 --json").out);
+  const ProgramRun run = run_program(folder_, "simulate cube.obj --bricks 4 --duration 0.05 -o chosen.h5 --json");
+  const nlohmann::json made = nlohmann::json::parse(run.out);
+  EXPECT_EQ(made["bodies"][0]["material"], seen["bodies"][0]["material"]);
+  EXPECT_EQ(made["bodies"][0]["material"]["name"], "gelatin");
+  EXPECT_EQ(made["bodies"][0]["material"]["poisson"], 0.45);
+  EXPECT_EQ(made["bodies"][0]["size"], 0.2);
+  EXPECT_EQ(made["bodies"][0]["mesh"], "cube.obj");
+}
+
 TEST(Forecast, WarnsOfMoreMemoryThanThereIs) {
   EXPECT_EQ(warning_of_memory(1e6), "");
   EXPECT_NE(warning_of_memory(1e18).find("needs about 1e+09 GB of memory"), std::string::npos)
