@@ -4,17 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <memory>
-#include <numbers>
 #include <vector>
 
 #include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
-#include "core/dynamics/explicit/integrator.h"
-#include "core/dynamics/statics/statics.h"
-#include "core/error.h"
 #include "core/simulation/body_source.h"
 #include "core/simulation/selector.h"
 
@@ -26,18 +20,8 @@ constexpr double kManyBricks = 1500;  // but not many more than these in all, si
 constexpr double kManyBricksInFilm = 2500;
 constexpr double kManyBrickSteps = 6e7;  // explicit ones, for a second of film
 constexpr double kSag = 0.04;
-constexpr double kOverload = 2;             // times the weight, which must not buckle it:
-constexpr double kOverloadResponse = 3;     // times the displacement, at most
-constexpr double kKeptMargin = 0.6;         // of the distance from the centre of mass to the edge of the feet
-constexpr double kHopeless = 1.5;           // times the displacement allowed: not worth going on
-constexpr int kHalvings = 4;                // of the size
-constexpr double kStandingFraction = 0.04;  // of the height, as round bodies flatten, ...
-constexpr double kHangingFraction = 0.08;   // ... or as the scenario pins, ...
-constexpr double kSupportedBricks = 0.5;    // ... but at least so many bricks: these may be askew
-constexpr double kFill = 0.25;              // a brick is taken to be at least that full
-
-// Sags are told to a thousandth; what does not converge quickly is near buckling.
-const StaticOptions kQuick{.tolerance = 1e-3, .direction_tolerance = 1e-2, .max_iterations = 20, .max_load_steps = 1};
+constexpr double kLinearSag = 1.5;  // times as much by the linear solution: an equilibrium may sag less
+constexpr int kHalvings = 4;        // of the size
 
 /// Elastomers, the softest first.
 std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
@@ -81,158 +65,16 @@ std::vector<BrickGrid> filled(const LoadedBody& loaded, double brick_size, Model
   return grids;
 }
 
-std::vector<Body> standing_bodies(std::vector<BrickGrid> grids, Model model, const Material& material) {
-  std::vector<Body> bodies;
-  for (BrickGrid& grid : grids) {
-    Body& body = bodies.emplace_back(make_body(std::move(grid), model, material));
-    // Hardly filled bricks would sag by themselves.
-    for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
-    build_tiles(body);
+/// The first element that does not fail, of some that do and then some that do not: looked for in growing strides from
+/// `likely` on, and by bisection.
+template <class Iterator, class Fails>
+Iterator first_that_holds(Iterator first, Iterator likely, Iterator last, const Fails& fails) {
+  for (std::ptrdiff_t stride = 1; likely != last && fails(*likely); stride *= 2) {
+    first = likely + 1;
+    likely += std::min(stride, last - likely);
   }
-  return bodies;
+  return std::partition_point(first, likely, fails);
 }
-
-/// The lowest part of a body, or the highest. `down`: in its frame.
-Supports supports_at_end(const Body& body, Support support, const Vec3& down) {
-  const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
-  const double low = heights.minCoeff();
-  const double high = heights.maxCoeff();
-  const double fraction = support == Support::kStands ? kStandingFraction : kHangingFraction;
-  const double part = std::max(fraction * (high - low), kSupportedBricks * body.grid.brick_size);
-  Supports supports(body.node_count());
-  for (int node = 0; node < body.node_count(); ++node) {
-    const bool is_supported = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
-    for (int axis = 0; is_supported && axis < 3; ++axis) supports.fix(node, axis);
-  }
-  return supports;
-}
-
-Supports supports_by_pins(const Body& body, std::size_t solid, const std::vector<Pin>& pins, const Selector& selector) {
-  Supports supports(body.node_count());
-  for (const Pin& pin : pins) {
-    for (const int node : selector.nodes(pin, body.rest_positions, solid)) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (pin.axes.fixed[axis]) supports.fix(node, axis);
-      }
-    }
-  }
-  return supports;
-}
-
-/// Finds the equilibria of the supported solids of a body under multiples of its weight. `gravity`: in its frame.
-class StandingBody {
- public:
-  StandingBody(std::vector<Body> solids, Support support, const std::vector<Pin>& pins, const Selector& selector,
-               const Vec3& gravity)
-      : solids_(std::move(solids)), support_(support), gravity_(gravity) {
-    for (std::size_t row = 0; row < solids_.size(); ++row) {
-      supports_.push_back(support == Support::kPins ? supports_by_pins(solids_[row], row, pins, selector)
-                                                    : supports_at_end(solids_[row], support, gravity));
-      systems_.push_back(make_default_solver());
-    }
-  }
-
-  /// The largest displacement of a node by the linear solution, m; none if the supports leave a solid free to move.
-  std::optional<double> linear_displacement() {
-    return displaced([this](std::size_t row) {
-      Body& body = solids_[row];
-      const Points still = Points::Zero(body.node_count(), 3);
-      body.positions += linear_response(body, supports_[row], load(row, 1), still, *systems_[row]).displacements;
-    });
-  }
-
-  /// s, at rest and at full size.
-  [[nodiscard]] double stable_step() {
-    double shortest = std::numeric_limits<double>::infinity();
-    rest();
-    for (const Body& body : solids_) shortest = std::min(shortest, sprung::stable_step(body));
-    return shortest;
-  }
-
-  /// The largest displacement of a node, m, if the body keeps its shape: it is no more than `most`, and a single solid
-  /// does not lean so far that it would topple.
-  std::optional<double> carried_displacement(double weight, double most) {
-    rest();
-    const std::optional<double> once = displacement(weight, most);
-    if (!once) return std::nullopt;
-    if (support_ == Support::kStands && solids_.size() == 1) {
-      const Body& body = solids_[0];
-      if (margin(body, body.positions) < kKeptMargin * margin(body, body.rest_positions)) return std::nullopt;
-    }
-    return displacement(kOverload * weight, kOverloadResponse * *once) ? once : std::nullopt;
-  }
-
- private:
-  /// The largest displacement of a node of a solid, m.
-  static double displacement(const Body& body) {
-    return (body.positions - body.rest_positions).rowwise().norm().maxCoeff();
-  }
-
-  /// N on each node of a solid, of that multiple of its weight.
-  [[nodiscard]] Points load(std::size_t row, double weight) const {
-    return weight * solids_[row].masses * gravity_.transpose();
-  }
-
-  void rest() {
-    for (Body& body : solids_) body.positions = body.rest_positions;
-  }
-
-  /// The largest displacement of a node, m, after `move(row)` has moved every solid; none if that throws Error.
-  std::optional<double> displaced(const std::function<void(std::size_t)>& move) {
-    double largest = 0;
-    for (std::size_t row = 0; row < solids_.size(); ++row) {
-      try {
-        move(row);
-      } catch (const Error&) {
-        return std::nullopt;
-      }
-      largest = std::max(largest, displacement(solids_[row]));
-    }
-    return largest;
-  }
-
-  /// The largest displacement of a node in the equilibrium that is found from where the solids are, m; none if there is
-  /// none or it is more than `most`.
-  std::optional<double> displacement(double weight, double most) {
-    const std::optional<double> largest = displaced([&](std::size_t row) {
-      Body& body = solids_[row];
-      StaticOptions options = kQuick;
-      options.between = [&] {
-        if (displacement(body) > kHopeless * most) throw Error(ErrorKind::kFailed, "sags too far");
-      };
-      const Points start = body.positions;
-      solve_static(body, supports_[row], load(row, weight), start, *systems_[row], options);
-    });
-    return largest && *largest <= most ? largest : std::nullopt;
-  }
-
-  /// Along the ground, from the centre of mass to the nearest edge of the convex hull of the fixed nodes, m; negative
-  /// if it is outside.
-  [[nodiscard]] double margin(const Body& body, const Points& positions) const {
-    constexpr int kDirections = 32;
-    const Vec3 centre = positions.transpose() * body.masses / body.masses.sum();
-    const Vec3 u = gravity_.unitOrthogonal();
-    const Vec3 v = gravity_.normalized().cross(u);
-    double nearest = std::numeric_limits<double>::max();
-    for (int k = 0; k < kDirections; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kDirections;
-      const Vec3 outwards = std::cos(turn) * u + std::sin(turn) * v;
-      double farthest = std::numeric_limits<double>::lowest();
-      for (int node = 0; node < body.node_count(); ++node) {
-        if (!supports_[0].fixed[3 * std::size_t(node)]) continue;
-        farthest = std::max(farthest, outwards.dot(positions.row(node).transpose() - centre));
-      }
-      nearest = std::min(nearest, farthest);
-    }
-    return nearest;
-  }
-
-  std::vector<Body> solids_;
-  Support support_;
-  Vec3 gravity_;
-  std::vector<Supports> supports_;
-  std::vector<std::unique_ptr<LinearSolver>> systems_;
-};
 
 }  // namespace
 
@@ -256,8 +98,8 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
   const double count = count_of_bricks(grids);
   const double coarser = std::max(1.0, std::cbrt(count / kManyBricks));
   if (coarser > 1) grids = filled(loaded, loaded.brick_size * coarser, body.model);
-  StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support, body.pins,
-                        Selector(loaded), world_from_bricks.transpose() * gravity);
+  StandingBody standing(std::move(grids), body.model, reference.material(), support, body.pins, Selector(loaded),
+                        world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.linear_displacement();
   if (!linear || *linear <= 0) return std::nullopt;
 
@@ -285,13 +127,10 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
       return !carried;
     };
     // Few equilibria are needed where the search begins with what carries the body by the linear solution.
-    auto from = std::partition_point(materials.begin(), materials.end(), sags_beyond(kHopeless * kSag * size));
-    auto to = std::partition_point(from, materials.end(), sags_beyond(kSag * size));
-    for (std::ptrdiff_t further = 1; to != materials.end() && fails(*to); further *= 2) {
-      from = to + 1;
-      to += std::min(further, materials.end() - to);
-    }
-    const auto softest = std::partition_point(from, to, fails);
+    const auto possible =
+        std::partition_point(materials.begin(), materials.end(), sags_beyond(kLinearSag * kSag * size));
+    const auto likely = std::partition_point(possible, materials.end(), sags_beyond(kSag * size));
+    const auto softest = first_that_holds(possible, likely, materials.end(), fails);
     if (softest == materials.end()) continue;
     const double faster = wave_speed((*softest)->material()) / wave_speed(reference.material()) / scale;
     return SupportingMaterial{.material = *softest,

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "app/scene/film.h"
+#include "app/scene/standing_body.h"
 #include "core/simulation/observer.h"
 
 namespace sprung {
@@ -14,19 +15,10 @@ struct SupportingMaterial {
   int bricks = 0;   // along the longest side: kDefaultBricks, or fewer so that a film takes seconds
 };
 
-/// How a body is supported.
-enum class Support {
-  kStands,  // its lowest 4 % are fixed
-  kHangs,   // its highest 8 %
-  kPins     // what its pins hold
-};
-
-/// A body keeps its shape if, in its orientation and with its support, the largest displacement in its nonlinear
-/// equilibrium under `gravity` (m/s^2) is at most 4 % of the size, its centre of mass keeps 60 % of its distance to the
-/// edge of its feet, so that it does not topple, and twice the weight displaces it by at most three times as much, so
-/// that it does not buckle. At equal Poisson's ratio, shapes depend on rho g L / E alone; so one coarse grid of 16
-/// bricks or fewer serves all materials and sizes, and a search that begins with what carries the body by the linear
-/// solution finds the heaviest load that is supported.
+/// A body keeps its shape if it does so in its orientation and with its support (StandingBody::carried_displacement())
+/// and its largest displacement under `gravity` (m/s^2) is at most 4 % of the size. At equal Poisson's ratio, shapes
+/// depend on rho g L / E alone; so one coarse grid of 16 bricks or fewer serves all materials and sizes, and a search
+/// that begins with what carries the body by the linear solution finds the heaviest load that is supported.
 /// `may_shrink`: whether the size (m) may be halved up to four times. None if nothing supports it. Throws
 /// Error(kBadInput) for a bad mesh.
 [[nodiscard]] std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Support support,
