@@ -179,7 +179,7 @@ Json bodies_json(const Film& film) {
   Json bodies = Json::array();
   for (const SceneBody& body : film.bodies) {
     bodies.push_back({{"mesh", body.mesh.empty() ? Json() : Json(body.mesh.filename().string())},
-                      {"size", body.size ? Json(*body.size) : Json()},
+                      {"size_m", body.size ? Json(*body.size) : Json()},
                       {"material", json_of(body.material)}});
   }
   return bodies;

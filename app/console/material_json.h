@@ -5,13 +5,12 @@
 
 namespace sprung {
 
-/// SI units.
+/// "name", "young_Pa", "poisson", "density_kg_m3".
 [[nodiscard]] inline nlohmann::ordered_json json_of(const Material& material) {
   return {{"name", material.name},
-          {"young", material.young},
+          {"young_Pa", material.young},
           {"poisson", material.poisson},
-          {"density", material.density},
-          {"damping", material.damping}};
+          {"density_kg_m3", material.density}};
 }
 
 }  // namespace sprung

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/console/material_json.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -194,11 +195,7 @@ std::string json_of(const PartReport& report) {
             {"extent_m", json_of(answer.extent)},
             {"volume_m3", answer.volume},
             {"mass_kg", answer.mass},
-            {"material",
-             {{"name", part.body.material.name},
-              {"young_Pa", part.body.material.young},
-              {"poisson", part.body.material.poisson},
-              {"density_kg_m3", part.body.material.density}}},
+            {"material", json_of(part.body.material)},
             {"analysis", answer.is_linear ? "linear" : "nonlinear"},
             {"brick_sizes_m", answer.brick_sizes},
             {"brick_counts", answer.brick_counts}};

@@ -136,7 +136,7 @@ TEST_F(Inspect, TellsTheMaterialAndTheSizeThatWereChosenAsSimulateDoes) {
   EXPECT_EQ(made["bodies"][0]["material"], seen["bodies"][0]["material"]);
   EXPECT_EQ(made["bodies"][0]["material"]["name"], "gelatin");
   EXPECT_EQ(made["bodies"][0]["material"]["poisson"], 0.45);
-  EXPECT_EQ(made["bodies"][0]["size"], 0.2);
+  EXPECT_EQ(made["bodies"][0]["size_m"], 0.2);
   EXPECT_EQ(made["bodies"][0]["mesh"], "cube.obj");
 }
 

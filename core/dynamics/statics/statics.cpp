@@ -104,9 +104,9 @@ namespace {
 
 constexpr double kLongestStep = 0.5;  // body lengths; a longer one is useless
 constexpr double kLinearTolerance = 1e-11;
-constexpr double kPreconditioning = 1e-4;
-constexpr double kFirstMove = 0.1;  // bricks, along a direction of negative curvature
-constexpr double kFarthest = 1024;  // times as far
+constexpr double kPreconditioning = 1e-4;  // of a correction in conjugate gradients
+constexpr double kFirstMove = 0.1;         // bricks, along a direction of negative curvature
+constexpr double kFarthest = 1024;         // times as far
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
