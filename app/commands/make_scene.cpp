@@ -44,6 +44,16 @@ std::shared_ptr<const MaterialLibrary> library_of(const SceneRequest& request) {
   return library;
 }
 
+/// Tells what curves gave the materials of bodies.
+void tell_fits(const Film& film, const Observer& observer) {
+  for (std::size_t i = 0; i < film.bodies.size(); ++i) {
+    const Material& material = film.bodies[i].material;
+    if (material.name != "custom" || material.source.empty()) continue;
+    observer.note(fmt::format("material of body {}: E = {}, law {}; {}", i + 1,
+                              readable(material.young, Dimension::kPressure), law_text(material.law), material.source));
+  }
+}
+
 /// Sets the softest material that supports the body of a bare mesh, its size if even the stiffest does not, and the
 /// faster time stepping for it.
 void choose_material(Film& film, const SceneRequest& request, Scenario scenario, const Observer& observer) {
@@ -178,6 +188,7 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
   const Material chosen = body.material;
   apply_settings(request, scene);  // once more: what is typed wins over the scenario
   if (body.material.name == kAutoMaterial) body.material = chosen;
+  tell_fits(scene, observer);
   return scene;
 }
 
@@ -223,6 +234,7 @@ Film make_scene(const SceneRequest& request, const Observer& observer) {
   apply_defaults(request, scene);
   apply_settings(request, scene);
   choose_materials(scene, observer);
+  tell_fits(scene, observer);
   return scene;
 }
 

@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.h"
+#include "app/commands/material_figure.h"
 #include "app/commands/options.h"
 #include "app/scene/scene_values.h"
 #include "core/color_text.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace sprung {
 namespace {
@@ -23,7 +25,21 @@ struct MaterialsOptions {
   std::vector<std::string> files;  // of further materials
   bool sources = false;
   bool json = false;
+  std::string picture;  // file
 };
+
+constexpr std::size_t kMaxDrawn = 12;
+
+void draw_materials(const std::vector<LibraryMaterial>& materials, const std::string& file) {
+  if (lower_extension(file) != ".svg") {
+    throw Error(ErrorKind::kUsage, fmt::format("--picture {}: it is written as .svg", file));
+  }
+  if (materials.empty() || materials.size() > kMaxDrawn) {
+    throw Error(ErrorKind::kUsage, fmt::format("--picture draws 1 to {} materials, these are {}; name some of them",
+                                               kMaxDrawn, materials.size()));
+  }
+  write_file(file, svg_text(material_figure(materials)));
+}
 
 /// Pa.
 struct Moduli {
@@ -137,6 +153,8 @@ std::string sources(const LibraryMaterial& material) {
          source_line("damping", fmt::format("{}", material.damping), percent(material.damping_uncertainty),
                      material.damping_source) +
          strength_sources(material) +
+         (material.law == StrainEnergyLaw{} ? ""
+                                            : source_line("law", law_text(material.law), "", material.law_source)) +
          (material.color ? source_line("color", hex_text(*material.color), "", material.color_source) : "");
 }
 
@@ -160,6 +178,7 @@ Json json_of(const LibraryMaterial& material) {
       {"ultimate_strength",
        if_known(material.ultimate_strength, material.ultimate_strength_uncertainty, material.ultimate_strength_source)},
       {"elongation", if_known(material.elongation, material.elongation_uncertainty, material.elongation_source)},
+      {"law", {{"value", law_text(material.law)}, {"source", material.law_source}}},
       {"look", name_of(material.look)},
       {"mean_free_path",
        if_known(material.mean_free_path, material.mean_free_path_uncertainty, material.mean_free_path_source)},
@@ -171,6 +190,7 @@ void list_materials(const MaterialsOptions& options) {
   MaterialLibrary library = *built_in_materials();
   for (const std::string& file : options.files) library.add_file(file);
   const std::vector<LibraryMaterial> materials = asked_for(options, library);
+  if (!options.picture.empty()) draw_materials(materials, options.picture);
   if (options.json) {
     Json list = Json::array();
     for (const LibraryMaterial& material : materials) list.push_back(json_of(material));
@@ -197,10 +217,13 @@ void add_materials(CLI::App& app, Invocation&) {
       ->allow_extra_args(false)
       ->option_text("FILE.toml");
   command->add_flag("--sources", options->sources, "the source of every value");
+  command->add_option("--picture", options->picture, "draw their stress over stretch, with what was measured")
+      ->option_text("FILE.svg");
   command->add_flag("--json", options->json, "as JSON, SI units, with the sources");
   command->footer(
       "Examples:\n  sprung materials\n  sprung materials silicone --young :1MPa\n"
-      "  sprung materials steel --sources\n  sprung materials --materials mine.toml --json");
+      "  sprung materials steel --sources\n  sprung materials --materials mine.toml --json\n"
+      "  sprung materials rubber --picture rubber.svg");
   command->callback([options] { list_materials(*options); });
 }
 

@@ -5,12 +5,19 @@
 
 namespace sprung {
 
-/// "name", "young_Pa", "poisson", "density_kg_m3".
+/// "name", "young_Pa", "poisson", "density_kg_m3", "law" and, where it has some, its parameters.
 [[nodiscard]] inline nlohmann::ordered_json json_of(const Material& material) {
-  return {{"name", material.name},
-          {"young_Pa", material.young},
-          {"poisson", material.poisson},
-          {"density_kg_m3", material.density}};
+  nlohmann::ordered_json json{{"name", material.name},
+                              {"young_Pa", material.young},
+                              {"poisson", material.poisson},
+                              {"density_kg_m3", material.density},
+                              {"law", law_name(material.law.kind)}};
+  const StrainEnergyLaw& law = material.law;
+  if (law.mooney_share) json["mooney_share"] = *law.mooney_share;
+  if (law.fung_exponent) json["fung_exponent"] = *law.fung_exponent;
+  if (!law.ogden_exponents.empty()) json["ogden_exponents"] = law.ogden_exponents;
+  if (!law.ogden_shares.empty()) json["ogden_shares"] = law.ogden_shares;
+  return json;
 }
 
 }  // namespace sprung

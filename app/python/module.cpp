@@ -5,6 +5,7 @@
 
 #include "app/python/bindings.h"
 #include "app/scene/material_library.h"
+#include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/io/reader_process.h"
@@ -33,9 +34,16 @@ void bind_errors(py::module_& module) {
 
 Material material_named(const std::string& name) { return built_in_materials()->find(name).material(); }
 
-Material make_material(double young, double poisson, double density, double damping, const std::string& name) {
+Material make_material(double young, double poisson, double density, double damping, const std::string& name,
+                       const std::string& law, std::optional<double> mooney_share, std::optional<double> fung_exponent,
+                       std::vector<double> ogden_exponents, std::vector<double> ogden_shares) {
   Material material{
       .name = name, .young = young, .poisson = poisson, .density = density, .damping = damping, .source = ""};
+  parse_value(law, {.name = "law", .help = ""}, material.law.kind);
+  material.law.mooney_share = mooney_share;
+  material.law.fung_exponent = fung_exponent;
+  material.law.ogden_exponents = std::move(ogden_exponents);
+  material.law.ogden_shares = std::move(ogden_shares);
   check_material(material);
   return material;
 }
@@ -54,14 +62,19 @@ std::string described(const py::object& self) {
 void bind_materials(py::module_& module) {
   py::class_<Material>(module, "Material", "What bricks are made of: isotropic, and linear for small strains.")
       .def(py::init(&make_material), py::arg("young"), py::arg("poisson"), py::arg("density"),
-           py::arg("damping") = 0.02, py::arg("name") = "custom",
+           py::arg("damping") = 0.02, py::arg("name") = "custom", py::arg("law") = "neo-hooke",
+           py::arg("mooney_share") = py::none(), py::arg("fung_exponent") = py::none(),
+           py::arg("ogden_exponents") = std::vector<double>{}, py::arg("ogden_shares") = std::vector<double>{},
            "young: Pa; poisson: above -1 and below 0.5; density: kg/m3; damping: fraction of critical, at the slowest "
-           "vibration.")
+           "vibration; law: at large strains, neo-hooke, mooney-rivlin, ogden, fung or linear, with its parameters as "
+           "in a scene.")
       .def_readonly("name", &Material::name, "The name it was given.")
       .def_readonly("young", &Material::young, "Young's modulus, Pa.")
       .def_readonly("poisson", &Material::poisson, "Poisson's ratio, 1.")
       .def_readonly("density", &Material::density, "Density, kg/m3.")
       .def_readonly("damping", &Material::damping, "Ratio of critical damping at the slowest vibration, 1.")
+      .def_property_readonly(
+          "law", [](const Material& material) { return law_text(material.law); }, "The law at large strains.")
       .def_readonly("source", &Material::source, "Source of a built-in material's figures.")
       .def("__repr__", &described);
   module.def("material", &material_named, py::arg("name"),

@@ -21,10 +21,21 @@ class Material:
     """What bricks are made of: isotropic, and linear for small strains."""
 
     def __init__(
-        self, young: float, poisson: float, density: float, damping: float = 0.02, name: str = "custom"
+        self,
+        young: float,
+        poisson: float,
+        density: float,
+        damping: float = 0.02,
+        name: str = "custom",
+        law: str = "neo-hooke",
+        mooney_share: float | None = None,
+        fung_exponent: float | None = None,
+        ogden_exponents: Sequence[float] = [],
+        ogden_shares: Sequence[float] = [],
     ) -> None:
         """young: Pa; poisson: above -1 and below 0.5; density: kg/m3; damping: fraction of critical, at the slowest
-        vibration."""
+        vibration; law: at large strains, neo-hooke, mooney-rivlin, ogden, fung or linear, with its parameters as in a
+        scene."""
     @property
     def name(self) -> str:
         """The name it was given."""
@@ -40,6 +51,9 @@ class Material:
     @property
     def damping(self) -> float:
         """Ratio of critical damping at the slowest vibration, 1."""
+    @property
+    def law(self) -> str:
+        """The law at large strains."""
     @property
     def source(self) -> str:
         """Source of a built-in material's figures."""

@@ -15,8 +15,13 @@
 namespace sprung {
 
 Material LibraryMaterial::material() const {
-  return {
-      .name = name, .young = young, .poisson = poisson, .density = density, .damping = damping, .source = young_source};
+  return {.name = name,
+          .young = young,
+          .poisson = poisson,
+          .density = density,
+          .damping = damping,
+          .source = young_source,
+          .law = law};
 }
 
 void MaterialLibrary::add_file(const std::filesystem::path& file) {

@@ -32,6 +32,9 @@ struct LibraryMaterial {
   double damping = 0.02;           // ratio of critical damping
   double damping_uncertainty = 0;  // relative
   std::string damping_source;
+  StrainEnergyLaw law;  // at large strains
+  std::string law_source;
+  std::filesystem::path curve;            // absolute; of a tension test that young and the law are fitted to, or empty
   double yield_strength = 0;              // Pa; beyond it deformation is permanent; 0: none, or not known
   double yield_strength_uncertainty = 0;  // relative
   std::string yield_strength_source;

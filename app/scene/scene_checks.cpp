@@ -126,6 +126,12 @@ void check_table(const SceneBody& body, const std::string& path, const Report& r
       report({"region", row}, fmt::format("{}.region: only a body's material can be \"auto\"; name this one", path));
       return;
     }
+    if (material.law != body.material.law) {
+      report({"region", row},
+             fmt::format("{}.region: its law is {}, that of the body {}; the materials of one body may "
+                         "differ in stiffness and density only",
+                         path, law_text(material.law), law_text(body.material.law)));
+    }
     if (material.poisson == body.material.poisson) return;
     report({"region", row}, fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials "
                                         "of one body may differ in stiffness and density only",
@@ -188,7 +194,21 @@ void check_table(const SceneWind& wind, const std::string& path, const Report& r
   check_times(wind.keyframes, "keyframes", path, report);
 }
 
+namespace {
+
+void check_law(const StrainEnergyLaw& law, bool is_fitted, const std::string& path, const Report& report) {
+  const std::string fault = is_fitted ? "" : find_fault(law);
+  if (!fault.empty()) report({"law"}, fmt::format("{}: {}", path, fault));
+}
+
+}  // namespace
+
+void check_table(const Material& material, const std::string& path, const Report& report) {
+  check_law(material.law, !material.curve.empty(), path, report);
+}
+
 void check_table(const LibraryMaterial& material, const std::string& path, const Report& report) {
+  check_law(material.law, !material.curve.empty(), path, report);
   const double ultimate = material.ultimate_strength;
   if (ultimate == 0 || material.yield_strength <= ultimate) return;
   report({"yield_strength"}, fmt::format("{}.yield_strength: {} is above the ultimate strength, {}", path,

@@ -33,6 +33,7 @@ void check_table(const Pin& pin, const std::string& path, const Report& report);
 void check_table(const BodyForce& force, const std::string& path, const Report& report);
 void check_table(const BodyMuscle& muscle, const std::string& path, const Report& report);
 void check_table(const SceneWind& wind, const std::string& path, const Report& report);
+void check_table(const Material& material, const std::string& path, const Report& report);
 void check_table(const LibraryMaterial& material, const std::string& path, const Report& report);
 
 template <class Owner>

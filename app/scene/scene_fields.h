@@ -282,7 +282,7 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
         body.brick_rotation);
   visit({"material",
          "a name from `sprung materials`; auto: the softest that carries the body; in a scene also { young, poisson, "
-         "density, damping }"},
+         "density, damping, law }"},
         body.material);
   visit({"model",
          "law of the bricks: calibrated (by the solid in each), tensile (Baudet et al. "
@@ -327,13 +327,40 @@ void fields(auto& visit, Is<CapsuleShape> auto& capsule) {
   visit(required({"height", "between the centres of its ends", Dimension::kLength, kPositive}), capsule.height);
 }
 
+void law_fields(auto& visit, Is<StrainEnergyLaw> auto& law) {
+  visit({"law",
+         "strain energy at large strains: neo-hooke, mooney-rivlin, ogden, fung or linear (St. Venant-Kirchhoff); of "
+         "the calibrated model"},
+        law.kind);
+  visit({"mooney_share", "of mooney-rivlin: C2 / (C1 + C2)", Dimension::kRatio, {0, 1}}, law.mooney_share);
+  visit({"fung_exponent", "b of fung, exp(b (I1 - 3))", Dimension::kNone, kPositive}, law.fung_exponent);
+  visit({"ogden_exponents", "alpha of each term of ogden", Dimension::kNone}, law.ogden_exponents);
+  visit({"ogden_shares", "of each term in the shear modulus; they add up to 1", Dimension::kRatio, {0, 1}},
+        law.ogden_shares);
+}
+
+/// A curve stands in place of Young's modulus and of the parameters of the law.
+inline const std::vector<KeyRule>& rules_of_curve() {
+  static const std::vector<KeyRule> rules{{KeyRule::kOneOf, {"young", "curve"}},
+                                          {KeyRule::kAtMostOne, {"curve", "mooney_share"}},
+                                          {KeyRule::kAtMostOne, {"curve", "fung_exponent"}},
+                                          {KeyRule::kAtMostOne, {"curve", "ogden_exponents"}},
+                                          {KeyRule::kAtMostOne, {"curve", "ogden_shares"}}};
+  return rules;
+}
+
 void fields(auto& visit, Is<Material> auto& material) {
-  visit.table("material");
-  visit(required({"young", "Young's modulus", Dimension::kPressure, kPositive}), material.young);
+  visit.table("material", rules_of_curve());
+  visit({"young", "Young's modulus", Dimension::kPressure, kPositive}, material.young);
   visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
   visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
   visit({"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}},
         material.damping);
+  law_fields(visit, material.law);
+  visit(
+      {"curve",
+       "of a tension test, a table of stretch and nominal stress; in place of young: it and the law are fitted to it"},
+      material.curve);
 }
 
 void fields(auto& visit, Is<Copies> auto& copies) {
@@ -555,11 +582,11 @@ void fields(auto& visit, Is<Gate> auto& gate) {
 }
 
 void fields(auto& visit, Is<LibraryMaterial> auto& material) {
-  visit.table("library material");
+  visit.table("library material", rules_of_curve());
   visit(required({"name", "as scenes and --material use it"}), material.name);
   visit({"class", "gelatin, silicone, rubber, foam, wood, tissue, plastic, metal or other"}, material.material_class);
   visit({"about", "what it is"}, material.about);
-  visit(required({"young", "Young's modulus", Dimension::kPressure, kPositive}), material.young);
+  visit({"young", "Young's modulus", Dimension::kPressure, kPositive}, material.young);
   visit({"young_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.young_uncertainty);
   visit({"young_source", "source of the value"}, material.young_source);
   visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
@@ -572,6 +599,12 @@ void fields(auto& visit, Is<LibraryMaterial> auto& material) {
         material.damping);
   visit({"damping_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.damping_uncertainty);
   visit({"damping_source", "source of the value"}, material.damping_source);
+  law_fields(visit, material.law);
+  visit({"law_source", "source of the law and its parameters"}, material.law_source);
+  visit(
+      {"curve",
+       "of a tension test, a table of stretch and nominal stress; in place of young: it and the law are fitted to it"},
+      material.curve);
   visit({"yield_strength", "stress from which it stays deformed", Dimension::kPressure, kPositive},
         material.yield_strength);
   visit({"yield_strength_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},

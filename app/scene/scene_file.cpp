@@ -11,6 +11,7 @@
 
 #include "app/scene/scene_checks.h"
 #include "app/scene/scene_values.h"
+#include "app/scene/tension_curve.h"
 #include "app/scene/toml.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -101,6 +102,8 @@ toml::source_region find_place(const toml::table& table, const KeyLocation& plac
 std::string join_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
+
+bool gives_law(const toml::table& material) { return material.contains("law"); }
 
 /// Reads tables into structs by their fields(). The objects that it refers to must outlive it.
 class TableReader {
@@ -211,6 +214,8 @@ class TableReader {
     if (!node.is_table()) refuse_type(node, "the name of a material or a table");
     value = Material{};
     read(*node.as_table(), path, value);
+    if (std::filesystem::is_regular_file(value.curve)) fit_to_curve(value, gives_law(*node.as_table()));
+    value.curve.clear();  // what is left of it are numbers
   }
 
   template <class Value>
@@ -321,6 +326,22 @@ void set_if_unset(Film& film, const std::filesystem::path& file, std::string_vie
   }
 }
 
+namespace {
+
+/// Young's modulus and the law as the material's curve has them.
+void fit_library_material(LibraryMaterial& material, bool keeps_law) {
+  Material fitted = material.material();
+  fitted.curve = material.curve;
+  fit_to_curve(fitted, keeps_law);
+  material.young = fitted.young;
+  material.law = fitted.law;
+  for (std::string* source : {&material.young_source, &material.law_source}) {
+    *source += (source->empty() ? "" : "; ") + fitted.source;
+  }
+}
+
+}  // namespace
+
 void MaterialLibrary::add(std::string_view text, const std::filesystem::path& file) {
   Mistakes mistakes(file.string());
   const toml::table table = parse_toml(text, mistakes);
@@ -329,6 +350,13 @@ void MaterialLibrary::add(std::string_view text, const std::filesystem::path& fi
   const std::size_t before = materials_.size();
   for (int i = 0; i < isize(read.materials); ++i) {
     LibraryMaterial& material = read.materials[i];
+    if (std::filesystem::is_regular_file(material.curve)) {
+      try {
+        fit_library_material(material, gives_law(*(*table["material"].as_array())[i].as_table()));
+      } catch (const Error& error) {
+        mistakes.add(find_place(table, {"material", i}), fmt::format("material.curve: {}", error.what()));
+      }
+    }
     const LibraryMaterial* known = find_if_known(material.name);
     if (known == nullptr) {
       materials_.push_back(std::move(material));

@@ -170,6 +170,13 @@ std::string default_text(const std::vector<Value>&) {
   return "";
 }
 
+/// Returns whether one of several keys has to be given: what it is without being given then means nothing.
+bool is_alternative(std::string_view key, const std::vector<KeyRule>& rules) {
+  return std::any_of(rules.begin(), rules.end(), [&](const KeyRule& rule) {
+    return rule.relation == KeyRule::kOneOf && std::find(rule.keys.begin(), rule.keys.end(), key) != rule.keys.end();
+  });
+}
+
 /// Collects all tables below the scene, each once but with all its paths.
 class TableCollector {
  public:
@@ -185,6 +192,9 @@ class TableCollector {
     if (tables[row].keys.empty()) {
       KeyCollector keys{{}, tables[row].keys};
       fields(keys, owner);
+      for (KeyText& key : tables[row].keys) {
+        if (is_alternative(key.name, head.rules)) key.default_value.clear();
+      }
     }
     ChildCollector children{{}, *this, path.empty() ? "" : path + "."};
     fields(children, owner);

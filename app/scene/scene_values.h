@@ -35,6 +35,14 @@ template <>
 inline constexpr Names<RepairMode, 3> kNames<RepairMode>{
     "way of repair", {{{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}}};
 template <>
+inline constexpr Names<StrainEnergyKind, 5> kNames<StrainEnergyKind>{
+    "law",
+    {{{"neo-hooke", StrainEnergyKind::kNeoHooke},
+      {"mooney-rivlin", StrainEnergyKind::kMooneyRivlin},
+      {"ogden", StrainEnergyKind::kOgden},
+      {"fung", StrainEnergyKind::kFung},
+      {"linear", StrainEnergyKind::kLinear}}}};
+template <>
 inline constexpr Names<Interpolation, 3> kNames<Interpolation>{
     "interpolation",
     {{{"linear", Interpolation::kLinear}, {"smooth", Interpolation::kSmooth}, {"held", Interpolation::kHeld}}}};

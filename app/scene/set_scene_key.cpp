@@ -7,6 +7,7 @@
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
+#include "app/scene/tension_curve.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -82,6 +83,8 @@ void set_value(Material& material, const KeyInfo&, std::string_view rest, const 
   set_key(material, rest, given);
   material.name = "custom";
   material.source.clear();
+  if (!material.curve.empty()) fit_to_curve(material, material.law.kind != StrainEnergyKind::kNeoHooke);
+  material.curve.clear();
 }
 
 /// `rest`: the path below the key; empty unless the value is a table.

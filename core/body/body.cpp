@@ -13,7 +13,7 @@
 #include "core/body/solid_tiles.h"
 #include "core/bricks/embedding.h"
 #include "core/law/hexahedron.h"
-#include "core/law/neo_hooke/solid_brick.h"
+#include "core/law/solid/solid_brick.h"
 #include "core/types.h"
 
 namespace sprung {

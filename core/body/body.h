@@ -7,7 +7,7 @@
 #include "core/bricks/brick_topology.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
-#include "core/law/neo_hooke/curved_solid.h"
+#include "core/law/solid/curved_solid.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -42,7 +42,7 @@ struct Body {
   BrickLaw law;                            // of a full brick
   Eigen::MatrixXd small_strain_stiffness;  // 24 x 24, N/m, of a full brick: model kFem only, else empty
   Rayleigh damping;
-  std::vector<BodySolid> solids;            // per brick: model kNeoHooke only, else empty
+  std::vector<BodySolid> solids;            // per brick: model kCalibrated only, else empty
   std::vector<double> stiffness_scale;      // per brick: its fill, at least kStiffnessFloor
   Eigen::VectorXd masses;                   // per node, kg; sum = density * volume
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts

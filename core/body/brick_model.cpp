@@ -6,7 +6,7 @@
 #include "core/body/brick_hessian.h"
 #include "core/body/brick_kernel.h"
 #include "core/body/brick_measures.h"
-#include "core/law/neo_hooke/solid_brick.h"
+#include "core/law/solid/solid_brick.h"
 
 namespace sprung {
 
@@ -189,7 +189,7 @@ class SolidModel : public BrickModel {
   [[nodiscard]] Mat3 second_stress(const Body& body, const Mat3& gradient, double young) const override {
     constexpr double kFlat = 0.05;  // volume ratio
     if (gradient.determinant() < kFlat) return BrickModel::second_stress(body, gradient, young);
-    return young / body.material.young * gradient.inverse() * NeoHooke(body.material).stress(gradient);
+    return young / body.material.young * gradient.inverse() * StrainEnergy(body.material).stress(gradient);
   }
 
  private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/body/brick_model.h"
-#include "core/law/neo_hooke/solid_brick.h"
+#include "core/law/solid/solid_brick.h"
 
 namespace sprung {
 namespace {
@@ -98,7 +98,8 @@ SolidLaw solid_law(const Material& material, double h) {
           .bending = bending,
           .across = poisson * bending,
           .twist = material.shear_modulus() / material.young / 12,
-          .warping = warping_stiffness({})[0]};
+          .warping = warping_stiffness({})[0],
+          .psi = hyperelastic_terms(material, volume)};
 }
 
 BrickTiles make_solid_tiles(const Body& body) {

@@ -7,7 +7,7 @@ namespace sprung {
 /// The law of a body's full brick.
 [[nodiscard]] SolidLaw solid_law(const Material& material, double h);
 
-/// The tiles of a body with model kNeoHooke. Cost: linear in the bricks.
+/// The tiles of a body with model kCalibrated. Cost: linear in the bricks.
 [[nodiscard]] BrickTiles make_solid_tiles(const Body& body);
 
 /// The second derivatives of the energy of bricks `first` to `first` + kPackPadding - 1 at their current positions, see

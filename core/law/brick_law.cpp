@@ -28,7 +28,7 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   law.axial_cross -= law.axes;
 }
 
-/// The volume term of NeoHooke below that.
+/// The volume term of StrainEnergy below that.
 void check_dilation(double poisson) {
   if (poisson >= -0.5) return;
   throw Error(
@@ -101,6 +101,11 @@ Model model_from_name(std::string_view name) {
 
 BrickLaw brick_law(Model model, const Material& material, double h) {
   check_material(material);
+  if (model != Model::kCalibrated && material.law.kind != StrainEnergyKind::kNeoHooke) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("material '{}': law {} is of the calibrated model; {} has one of its own", material.name,
+                            law_name(material.law.kind), model_name(model)));
+  }
   return law_of(model, material, h);
 }
 

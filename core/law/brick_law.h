@@ -8,7 +8,7 @@ namespace sprung {
 
 /// The law of a body's bricks. M1 is springs along edges and face diagonals, M2 along edges and inner diagonals.
 enum class Model {
-  kCalibrated,  // neo-Hookean, by the moments of the solid in each brick (default; see neo_hooke/solid_brick.h)
+  kCalibrated,  // an energy of strain, by the moments of the solid in each brick (default; see solid/solid_brick.h)
   kTensile,     // the paper's M2 with its corrections: exact in stretch and shear
   kM1,          // the paper's M1 with its corrections: exact in stretch and shear
   kM2Plain,     // M2 without corrections: right at nu = 1/4 only

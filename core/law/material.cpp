@@ -27,6 +27,8 @@ void check_material(const Material& material) {
   if (!(material.damping >= 0 && std::isfinite(material.damping))) {
     refuse(material, "the damping ratio", material.damping, "0 or above");
   }
+  const std::string fault = find_fault(material.law);
+  if (!fault.empty()) throw Error(ErrorKind::kBadInput, fmt::format("material '{}': {}", material.name, fault));
 }
 
 }  // namespace sprung

@@ -1,5 +1,8 @@
 #pragma once
+#include <filesystem>
 #include <string>
+
+#include "core/law/strain_energy_law.h"
 
 namespace sprung {
 
@@ -11,6 +14,8 @@ struct Material {
   double density = 1000;  // kg/m^3, > 0
   double damping = 0.02;  // ratio of critical damping at the body's slowest vibration (see rayleigh_from_damping)
   std::string source;     // where the figures come from
+  StrainEnergyLaw law{};  // how it goes on at large strains
+  std::filesystem::path curve{};  // absolute; of a tension test that `young` and `law` are fitted to, or empty
 
   [[nodiscard]] double shear_modulus() const { return young / (2 * (1 + poisson)); }                          // G, Pa
   [[nodiscard]] double lame_lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  // Pa

@@ -252,6 +252,12 @@ struct Stuff {
 
 /// Poisson's ratio enters many constants of a brick's law, its stiffness is a single factor.
 void check_ratio(const Material& material, const Material& body) {
+  if (material.law != body.law) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("a region has the law {}, its body {}: the materials of one body may differ in stiffness "
+                            "and density only; give both the same law",
+                            law_text(material.law), law_text(body.law)));
+  }
   if (material.poisson == body.poisson) return;
   throw Error(ErrorKind::kBadInput,
               fmt::format("a region has the Poisson's ratio {}, its body {}: the materials of one body may differ in "

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/body/body.h"
-#include "core/law/neo_hooke/strain_energy.h"
+#include "core/law/solid/strain_energy.h"
 #include "core/world/loads.h"
 
 namespace sprung {
@@ -17,7 +17,7 @@ MuscleTension tension_of(const Muscle& muscle, Model model, const Material& mate
   MuscleTension tension;
   tension.frame << muscle.direction, aside, muscle.direction.cross(aside);
   if (model == Model::kCalibrated) {
-    tension.stress = -NeoHooke(material).stress(shape.asDiagonal()).diagonal();
+    tension.stress = -StrainEnergy(material).stress(shape.asDiagonal()).diagonal();
   } else {
     const Vec3 strain = shape.array() - 1;  // Hooke's law
     tension.stress = -(material.lame_lambda() * strain.sum() + 2 * material.shear_modulus() * strain.array());

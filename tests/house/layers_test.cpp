@@ -21,7 +21,7 @@ const std::vector<std::string> kFolders{
     "core/mesh/io",
     "core/bricks",
     "core/law",
-    "core/law/neo_hooke",
+    "core/law/solid",
     "core/body/kernel",
     "core/body",
     "core/skin",

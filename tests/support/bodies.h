@@ -16,6 +16,22 @@ inline Material test_material(double poisson, double young = 1e4) {
   return {.name = "test", .young = young, .poisson = poisson, .density = 1000, .damping = 0, .source = ""};
 }
 
+/// Every strain-energy density, with parameters.
+inline const std::array<StrainEnergyLaw, 6> kStrainEnergyLaws{{
+    {},
+    {.kind = StrainEnergyKind::kMooneyRivlin, .mooney_share = 0.3},
+    {.kind = StrainEnergyKind::kFung, .fung_exponent = 0.4},
+    {.kind = StrainEnergyKind::kOgden, .ogden_exponents = {3.5}},
+    {.kind = StrainEnergyKind::kOgden, .ogden_exponents = {1.3, 5, -2}, .ogden_shares = {0.75, 0.05, 0.2}},
+    {.kind = StrainEnergyKind::kLinear},
+}};
+
+inline Material material_of_law(const StrainEnergyLaw& law, double poisson) {
+  Material material = test_material(poisson);
+  material.law = law;
+  return material;
+}
+
 /// A brick's corners at rest, its low corner at the origin.
 inline CornerVectors<double> rest_brick(double h) {
   CornerVectors<double> x{};

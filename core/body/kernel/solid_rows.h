@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "core/body/kernel/brick_springs.h"
+#include "core/body/kernel/hyperelastic_rows.h"
 #include "core/body/kernel/pack.h"
 #include "core/body/kernel/tile_kernel.h"
 #include "core/body/kernel/tile_runs.h"
-#include "core/law/neo_hooke/volume_energy.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
@@ -122,26 +122,6 @@ inline constexpr std::array<std::pair<int, int>, kProducts.size()> kAskedBy = []
 /// Dimensionless differences: h b, h t and h^2 q; their conjugate forces, J.
 using Differences = std::array<Pack, kDifferences>;
 
-/// Three columns.
-struct Gradient {
-  Pack3 x;
-  Pack3 y;
-  Pack3 z;
-};
-
-[[nodiscard]] [[gnu::always_inline]] inline Gradient operator+(const Gradient& a, const Gradient& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-[[nodiscard]] [[gnu::always_inline]] inline Gradient times(const Pack& factor, const Gradient& f) {
-  return {factor * f.x, factor * f.y, factor * f.z};
-}
-
-/// Cross products of pairs of three columns: the derivative of their determinant, which is linear in each.
-[[nodiscard]] [[gnu::always_inline]] inline Gradient areas(const Gradient& a, const Gradient& b) {
-  return {cross(a.y, b.z), cross(a.z, b.x), cross(a.x, b.y)};
-}
-
 /// S: 1 2, 2 0 and 0 1 of a symmetric matrix without a diagonal.
 using Shear = Pack3;
 
@@ -235,10 +215,14 @@ class PackOfSolids {
     at.shear = shear_of(z);
     at.gradient = bent<kCut>(at.f, at.shear);
     at.area = areas(at.gradient, at.gradient);
-    const OfVolume of = of_volume(dot(at.gradient.x, at.area.x));
-    at.slope = share * of.slope;
-    at.curvature = share * of.curvature;
-    at.stress = times(share * law_.shear, at.gradient) + times(at.slope, at.area);
+    if (is_neo_hookean()) {
+      const OfVolume of = of_volume(law_.shear, law_.lambda, dot(at.gradient.x, at.area.x));
+      at.slope = share * of.slope;
+      at.curvature = share * of.curvature;
+      at.stress = times(share * law_.shear, at.gradient) + times(at.slope, at.area);
+    } else {
+      at.stress = times(share, hyperelastic_stress(law_.psi, at.gradient));
+    }
     at.force = stiffness_times(share, z);
     if constexpr (kCut) add_shear_force(at.f, at.stress, at.force);
     return at;
@@ -252,12 +236,7 @@ class PackOfSolids {
     Gradient gradient_change = bent<kCut>(f_change, at.shear);
     if constexpr (kCut) gradient_change = gradient_change + sheared(at.f, shear_change);
     const Pack share = numbers_.share();
-    const Pack volume_change =
-        dot(at.area.x, gradient_change.x) + dot(at.area.y, gradient_change.y) + dot(at.area.z, gradient_change.z);
-    const Gradient stress_change =
-        times(share * law_.shear, gradient_change) +
-        times(at.slope, areas(at.gradient, gradient_change) + areas(gradient_change, at.gradient)) +
-        times(at.curvature * volume_change, at.area);
+    const Gradient stress_change = change_of_stress(at, gradient_change);
     Differences force_change = stiffness_times(share, change);
     Gradient on_secant = bent<kCut>(stress_change, at.shear);
     if constexpr (kCut) {
@@ -277,13 +256,11 @@ class PackOfSolids {
     const TrilinearMap map = trilinear_map(corners, kPosition);
     const Differences z = differences(map);
     const Gradient f = bent<kCut>(secant(map), shear_of(z));
-    const Pack volume = dot(f.x, cross(f.y, f.z));
-    const Pack of_volume([&](int lane) { return volume_energy(law_.shear, law_.lambda, volume[lane]); });
     const Differences force = stiffness_times(Pack(1.0), z);
     Pack bending(0.0);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < kDifferences; ++i) bending += z[i] * force[i];
-    const Pack strain = (0.5 * law_.shear) * (dot(f.x, f.x) + dot(f.y, f.y) + dot(f.z, f.z) - 3.0) + of_volume;
+    const Pack strain = is_neo_hookean() ? neo_hookean_energy(f) : hyperelastic_energy(law_.psi, f);
     return numbers_.share() * (strain + 0.5 * bending);
   }
 
@@ -444,33 +421,30 @@ class PackOfSolids {
     return force;
   }
 
-  /// Derivatives of psi by the volume ratio, see strain_energy.cpp.
-  struct OfVolume {
-    Pack slope;
-    Pack curvature;
-  };
-  [[nodiscard]] [[gnu::always_inline]] OfVolume of_volume(const Pack& volume) const {
-    const Pack lowest(kLowestVolume);
-    const Pack per_volume = 1.0 / simd::max(volume, lowest);
-    const Pack below = simd::min(volume - lowest, Pack(0.0)) * (1 / kLowestVolume);
-    Pack slope = law_.shear * (below - 1.0) * per_volume;
-    Pack curvature = law_.shear * per_volume * per_volume;
-    const Pack u = volume - 1.0;
-    if (law_.lambda >= 0) {
-      slope += law_.lambda * u;
-      curvature += law_.lambda;
-    } else {
-      const Pack bound = 1.0 / (1.0 + u * u);
-      slope += law_.lambda * u * bound * bound;
-      curvature += law_.lambda * (1.0 - 3.0 * u * u) * bound * bound * bound;
-    }
-    return {slope, curvature};
+  [[nodiscard]] [[gnu::always_inline]] bool is_neo_hookean() const {
+    return law_.psi.kind == StrainEnergyKind::kNeoHooke;
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] Pack neo_hookean_energy(const Gradient& f) const {
+    const Pack volume = dot(f.x, cross(f.y, f.z));
+    const Pack of_volume([&](int lane) { return volume_energy(law_.shear, law_.lambda, volume[lane]); });
+    return (0.5 * law_.shear) * (dot(f, f) - 3.0) + of_volume;
+  }
+
+  /// The change of the stress of a state, times the share and h^3.
+  [[nodiscard]] [[gnu::always_inline]] Gradient change_of_stress(const State& at, const Gradient& by) const {
+    const Pack share = numbers_.share();
+    if (!is_neo_hookean()) return times(share, hyperelastic_change(law_.psi, at.gradient, by));
+    const Pack volume_change = dot(at.area.x, by.x) + dot(at.area.y, by.y) + dot(at.area.z, by.z);
+    return times(share * law_.shear, by) + times(at.slope, areas(at.gradient, by) + areas(by, at.gradient)) +
+           times(at.curvature * volume_change, at.area);
   }
 
   /// P, times h^3.
   [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress(const Gradient& f) const {
+    if (!is_neo_hookean()) return hyperelastic_stress(law_.psi, f);
     const Gradient area = areas(f, f);
-    const Pack slope = of_volume(dot(f.x, area.x)).slope;
+    const Pack slope = of_volume(law_.shear, law_.lambda, dot(f.x, area.x)).slope;
     return times(law_.shear, f) + times(slope, area);
   }
 

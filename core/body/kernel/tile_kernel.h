@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/law/brick_law.h"
+#include "core/law/solid/hyperelastic_terms.h"
 
 namespace sprung {
 
@@ -89,6 +90,7 @@ struct SolidLaw {
   double across = 0;
   double twist = 0;
   double warping = 0;
+  HyperelasticTerms psi;  // in J, times h^3; kNeoHooke: by shear and lambda alone
 };
 
 /// The parameters of a pack of solid bricks if one of them is cut, kPackPadding each, preceded by -1; a pack of whole

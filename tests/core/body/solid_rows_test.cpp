@@ -12,12 +12,12 @@
 namespace sprung {
 namespace {
 
+using test::material_of_law;
 using test::shake;
-using test::test_material;
 
 /// Whole bricks, in long and short rows, bricks of which only the fill is known, and cut ones, with holes between them;
 /// two materials; strongly deformed, some inverted, and in motion.
-Body ragged_solid(double poisson) {
+Body ragged_solid(double poisson, const StrainEnergyLaw& law = {}) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> between(-1, 1);
   BrickGrid grid;
@@ -37,7 +37,7 @@ Body ragged_solid(double poisson) {
     grid.fill.push_back(is_cut || cell.z() == 3 ? 0.6 + 0.3 * between(random) : 1.0);
   }
   number_nodes(grid);
-  Body body = make_body(std::move(grid), Model::kCalibrated, test_material(poisson));
+  Body body = make_body(std::move(grid), Model::kCalibrated, material_of_law(law, poisson));
   for (std::size_t brick = 0; brick < body.stiffness_scale.size(); brick += 2) body.stiffness_scale[brick] *= 7;
   build_tiles(body);
   shake(body, 0.3, random);
@@ -201,6 +201,54 @@ TEST(SolidRows, MoveToTheSameBitsOnAnyNumberOfThreadsAndInstructionSet) {
       const Body body = moved(kernel, threads);
       EXPECT_LE(largest(body.positions - best.positions), is_plain ? 1e-15 : 0.0) << kernel.name << threads;
       EXPECT_LE(largest(body.velocities - best.velocities), is_plain ? 1e-9 : 0.0) << kernel.name << threads;
+    }
+  }
+}
+
+/// Scalar and packed laws share no arithmetic: the one goes by the singular values of F, the other by invariants and
+/// the eigenvectors of F^T F.
+TEST(SolidRows, AnswerLikeTheirBricksByEveryLaw) {
+  const BrickModel& model = brick_model(Model::kCalibrated);
+  for (const StrainEnergyLaw& law : test::kStrainEnergyLaws) {
+    const Body body = ragged_solid(0.45, law);
+    const Points forces = sum_over_bricks(body, [&](std::size_t brick, const BrickVector& x, const BrickVector&) {
+      return model.forces(body, brick, x);
+    });
+    const Points products = sum_over_bricks(body, [&](std::size_t brick, const BrickVector& x, const BrickVector& v) {
+      return model.product(body, brick, x, v);
+    });
+    double energy = 0;
+    for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+      energy += model.energy(body, brick, at_corners(body, brick, body.positions));
+    }
+    const Eigen::VectorXd moves = body.velocities.reshaped<Eigen::RowMajor>();
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr) continue;
+      SCOPED_TRACE(law_text(law) + ' ' + kernel.name);
+      SpringSystem bricks(kernel);
+      Points pulled;
+      bricks.forces(body, pulled);
+      EXPECT_LT(largest(pulled - forces), 1e-12 * largest(forces));
+      Eigen::VectorXd product;
+      bricks.multiply(body, moves, product);
+      EXPECT_LT((product - products.reshaped<Eigen::RowMajor>()).cwiseAbs().maxCoeff(), 1e-10 * largest(products));
+      EXPECT_NEAR(bricks.energy(body) / energy, 1, 1e-12);
+    }
+  }
+}
+
+/// The plain kernel of x86-64 rounds more often, see below.
+TEST(SolidRows, PullWithTheSameBitsOnEveryInstructionSetByEveryLaw) {
+  for (const StrainEnergyLaw& law : test::kStrainEnergyLaws) {
+    Body body = ragged_solid(0.45, law);
+    body.damping.beta = 1e-3;
+    Points best;
+    SpringSystem(best_spring_kernel()).forces(body, best);
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr || kernel.name == std::string("plain")) continue;
+      Points forces;
+      SpringSystem(kernel).forces(body, forces);
+      EXPECT_EQ(largest(forces - best), 0) << law_text(law) << ' ' << kernel.name;
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "core/law/neo_hooke/solid_brick.h"
+#include "core/law/solid/solid_brick.h"
 
 #include <Eigen/Eigenvalues>
 

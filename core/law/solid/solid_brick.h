@@ -2,9 +2,9 @@
 #include "core/bricks/solid_moments.h"
 #include "core/law/brick_vector.h"
 #include "core/law/material.h"
-#include "core/law/neo_hooke/curved_solid.h"
-#include "core/law/neo_hooke/strain_differences.h"
-#include "core/law/neo_hooke/strain_energy.h"
+#include "core/law/solid/curved_solid.h"
+#include "core/law/solid/strain_differences.h"
+#include "core/law/solid/strain_energy.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -66,7 +66,7 @@ class SolidBrick {
   /// The rates of gradient().
   [[nodiscard]] GradientRates gradient_rates(const Deformation& at, const StrainDifferences::Rates& rates) const;
 
-  NeoHooke law_;
+  StrainEnergy law_;
   double volume_;
   Eigen::Matrix<double, 8, 3> weights_;  // gradients of the corners' trilinear weights at the centroid, 1/m
   StrainDifferences differences_;

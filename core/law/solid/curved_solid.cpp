@@ -1,10 +1,10 @@
-#include "core/law/neo_hooke/curved_solid.h"
+#include "core/law/solid/curved_solid.h"
 
 #include <Eigen/Cholesky>
 #include <array>
 
 #include "core/law/hexahedron.h"
-#include "core/law/neo_hooke/strain_differences.h"
+#include "core/law/solid/strain_differences.h"
 
 namespace sprung {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/law/neo_hooke/strain_differences.h"
+#include "core/law/solid/strain_differences.h"
 
 #include <algorithm>
 

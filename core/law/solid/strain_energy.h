@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 
 #include "core/law/material.h"
-#include "core/law/neo_hooke/volume_energy.h"
+#include "core/law/solid/hyperelastic_terms.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -11,22 +11,24 @@ namespace sprung {
 using GradientVector = Eigen::Matrix<double, 9, 1>;
 using GradientMatrix = Eigen::Matrix<double, 9, 9>;
 
-/// The strain-energy density of a compressible neo-Hookean solid,
-///   psi = G/2 (F : F - 3) - G log J + lambda/2 (J - 1)^2,   J = det F,
-/// with Lame's constants of the material at rest. Below J = 0.1 the logarithm continues as the parabola with its value,
-/// slope and curvature there: psi is finite and twice differentiable for every F, inverted ones too; a block compressed
-/// along one axis carries more and more until a tenth of its volume is left. Where lambda < 0 (nu < 0) the last term is
-/// lambda/2 (J - 1)^2 / (1 + (J - 1)^2): without a bound it would let a solid swell without end; with it psi grows with
-/// every dilation down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis",
-/// section 6.4.3, with (J - 1)^2 instead of (log J)^2.
-class NeoHooke {
+/// The strain-energy density psi of a material, see StrainEnergyKind, finite for every F, inverted ones too: below
+/// J = kLowestVolume log J continues as the parabola with its value, slope and curvature there, below a stretch of
+/// kLowestStretch the terms of Ogden with the slope by the squared stretch that they have there, and beyond
+/// kLargestExponent the exponential as a parabola. A block compressed along one axis carries more and more until a
+/// tenth of its volume is left. Where the factor of (J - 1)^2 is negative (nu < 0 with most), (J - 1)^2 / (1 + (J -
+/// 1)^2) takes its place: without a bound it would let a solid swell without end; with it psi grows with every dilation
+/// down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis", section 6.4.3,
+/// with (J - 1)^2 instead of (log J)^2.
+class StrainEnergy {
  public:
-  explicit NeoHooke(const Material& material);
+  explicit StrainEnergy(const Material& material);
 
   /// J/m^3; 0 at rest.
   [[nodiscard]] double energy(const Mat3& gradient) const;
   /// First Piola-Kirchhoff stress d psi / d F, Pa.
   [[nodiscard]] Mat3 stress(const Mat3& gradient) const;
+  /// The same for F = diag(stretches): the diagonal of the stress.
+  [[nodiscard]] Vec3 principal_stress(const Vec3& stretches) const;
   /// d^2 psi / d F^2, Pa.
   [[nodiscard]] GradientMatrix hessian(const Mat3& gradient) const;
   /// The same without its negative eigenvalues. These are closed-form in the principal stretches, except for a 3 x 3
@@ -40,8 +42,7 @@ class NeoHooke {
   [[nodiscard]] GradientMatrix viscosity(const Mat3& gradient) const;
 
  private:
-  double shear_;   // G, Pa
-  double lambda_;  // Pa
+  HyperelasticTerms terms_;
 };
 
 }  // namespace sprung
