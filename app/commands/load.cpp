@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -170,6 +171,9 @@ void write_files(const LoadFiles& files, const PartReport& report, const std::ve
   write_file(files.folder / "load.html", load_page(report, solutions.back(), image, picture.magnification()));
   write_xdmf(solution, files.folder / "load.xdmf");
   if (files.turntable) write_turntable(picture, files.folder / "load.mp4", console);
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : files.all()) names.push_back(file.filename().string());
+  console.note(fmt::format("{}: {}", files.folder.string(), fmt::join(names, ", ")));
 }
 
 void load_part(const CLI::App& command, const LoadOptions& options, Invocation& invocation) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxNamed = 3;  // singular places in the text
+constexpr double kMinShare = 0.01;    // of a stress, that its error leaves of it
 
 }  // namespace
 
@@ -31,9 +33,21 @@ PartVerdict judge(const PartAnswer& answer, const LibraryMaterial* material, con
     verdict.strength_value = material->ultimate_strength;
     stress = answer.tension;
   }
-  if (stress) verdict.safety = verdict.strength_value / stress->value;
+  if (stress) {
+    const double error = std::isfinite(stress->error) ? std::abs(stress->error) : 0;
+    verdict.safety = verdict.strength_value / stress->value;
+    verdict.min_safety = verdict.strength_value / (stress->value + error);
+    verdict.max_safety = verdict.strength_value / std::max(stress->value - error, kMinShare * stress->value);
+  }
   if (limits.safety && !(verdict.safety.value_or(0) >= *limits.safety)) verdict.holds = false;
   return verdict;
+}
+
+std::string safety_text(const PartVerdict& verdict) {
+  constexpr double kWorthTelling = 1.02;
+  const std::string text = fmt::format("{:.3g}", *verdict.safety);
+  if (verdict.max_safety < kWorthTelling * verdict.min_safety) return text;
+  return text + fmt::format(" ({:.3g} to {:.3g})", verdict.min_safety, verdict.max_safety);
 }
 
 std::string sides_text(const Vec3& sides) {
@@ -124,11 +138,16 @@ std::string mode_lines(const PartAnswer& answer) {
                      estimate_text(*answer.buckling_factor, fmt::format("{:.4g}", answer.buckling_factor->value)));
 }
 
+/// What a limit says, and whether the error of what is compared with it could turn that round.
+std::string limit_text(std::string_view judgement, bool is_certain) {
+  return fmt::format("{}{}\n", judgement, is_certain ? "" : ", but within the error: more --bricks decide");
+}
+
 std::string verdict_lines(const PartReport& report) {
   const PartVerdict& verdict = report.verdict;
   std::string text;
   if (verdict.safety) {
-    text += fmt::format("safety      {:.3g} against the {} of {}{}\n", *verdict.safety, verdict.strength,
+    text += fmt::format("safety      {} against the {} of {}{}\n", safety_text(verdict), verdict.strength,
                         readable(verdict.strength_value, Dimension::kPressure),
                         *verdict.safety >= 1                    ? ""
                         : verdict.strength.starts_with("yield") ? ": IT YIELDS"
@@ -137,15 +156,18 @@ std::string verdict_lines(const PartReport& report) {
     text += "safety      unknown: no strength of this material is known\n";
   }
   if (report.limits.displacement) {
-    text +=
-        fmt::format("limit       {} of displacement: {}\n", readable(*report.limits.displacement, Dimension::kLength),
-                    report.answer.displacement.value > *report.limits.displacement ? "EXCEEDED" : "kept");
+    const Estimate& moved = report.answer.displacement;
+    const double limit = *report.limits.displacement;
+    text += fmt::format("limit       {} of displacement: ", readable(limit, Dimension::kLength)) +
+            limit_text(moved.value > limit ? "EXCEEDED" : "kept", !(std::abs(moved.value - limit) < moved.error));
   }
   if (report.limits.safety) {
-    text += fmt::format("limit       safety {:g}: {}\n", *report.limits.safety,
-                        verdict.safety.value_or(0) >= *report.limits.safety ? "kept"
-                        : verdict.safety                                    ? "NOT REACHED"
-                                                                            : "UNKNOWN");
+    const double limit = *report.limits.safety;
+    text += fmt::format("limit       safety {:g}: ", limit) +
+            limit_text(verdict.safety.value_or(0) >= limit ? "kept"
+                       : verdict.safety                    ? "NOT REACHED"
+                                                           : "UNKNOWN",
+                       !(verdict.min_safety < limit && limit < verdict.max_safety));
   }
   return text;
 }
@@ -240,6 +262,8 @@ std::string json_of(const PartReport& report) {
   json["strength"] =
       verdict.strength.empty() ? Json(nullptr) : Json{{"kind", verdict.strength}, {"value_Pa", verdict.strength_value}};
   json["safety"] = verdict.safety ? Json(*verdict.safety) : Json(nullptr);
+  json["safety_range"] =
+      verdict.safety ? Json{verdict.min_safety, verdict.max_safety} : Json(nullptr);  // by the stress's error
   json["holds"] = verdict.holds;
   return json.dump(1) + "\n";
 }

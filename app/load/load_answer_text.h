@@ -17,6 +17,8 @@ struct PartLimits {
 struct PartVerdict {
   bool holds = true;
   std::optional<double> safety;  // strength over the largest stress away from singularities; none: one is unknown
+  double min_safety = 0;         // with the error of the stress; both are `safety` if it is unknown
+  double max_safety = 0;         // likewise
   std::string strength;          // which: "yield strength"
   double strength_value = 0;     // Pa
 };
@@ -34,6 +36,9 @@ struct PartReport {
   const PartVerdict& verdict;
   const PartLimits& limits;
 };
+
+/// "1.9", or "1.9 (1.55 to 2.44)" where the error of the stress counts; for a verdict with a safety.
+[[nodiscard]] std::string safety_text(const PartVerdict& verdict);
 
 /// "80 mm x 60 mm x 30 mm".
 [[nodiscard]] std::string sides_text(const Vec3& sides);

@@ -264,9 +264,9 @@ void LoadPicture::write_labels(Image& image, const Camera& camera) const {
     lines.push_back(fmt::format("{}: {}", load.face ? load.face->name : load.text, load.description()));
   }
   lines.push_back(fmt::format(
-      "moves {}{}", readable(answer.displacement.value, Dimension::kLength),
+      "moves {}{}; grey: without load", readable(answer.displacement.value, Dimension::kLength),
       magnification_ == 1 ? std::string(", drawn as it is") : fmt::format(", drawn {:g} times", magnification_)));
-  if (report_.verdict.safety) lines.push_back(fmt::format("safety {:.3g}", *report_.verdict.safety));
+  if (report_.verdict.safety) lines.push_back("safety " + safety_text(report_.verdict));
   for (std::size_t line = 0; line < lines.size(); ++line) {
     font.write(image, margin, margin + (1.25 * double(line) + 0.8) * size, size, lines[line], kInk);
   }

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
+#include "app/load/load_answer_text.h"
 #include "app/validate/mapped_block.h"
 #include "core/mesh/repair/faces.h"
 #include "render/image/png.h"
@@ -208,6 +210,9 @@ TEST_F(Load, WritesPicturesAndTables) {
   const ProgramRun made =
       run("bar.obj --fix x-low --load x-high:100N:-y --bricks 50 --material steel -o out/ --turntable");
   ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("out/: load.png, load.json, load.csv, load.html, load.xdmf, load.xdmf.h5, load.mp4"),
+            std::string::npos)
+      << made.err;
   const Image picture = read_png(folder_.path() / "out" / "load.png");
   EXPECT_EQ(picture.width, 1600);
   EXPECT_GT(std::set<std::uint8_t>(picture.pixels.begin(), picture.pixels.end()).size(), 100U);
@@ -226,7 +231,32 @@ TEST_F(Load, LimitsDecideTheExitCode) {
   const ProgramRun bends = run(bar + " --deflection-limit 0.1mm");
   EXPECT_EQ(bends.exit_code, 1);
   EXPECT_NE(bends.out.find("EXCEEDED"), std::string::npos);
-  EXPECT_EQ(run(bar + " --safety 20").exit_code, 1);
+  const ProgramRun weak = run(bar + " --safety 20");
+  EXPECT_EQ(weak.exit_code, 1);
+  EXPECT_NE(weak.out.find("NOT REACHED\n"), std::string::npos) << weak.out;
+}
+
+TEST_F(Load, SaysWhetherTheErrorCouldTurnAVerdictRound) {
+  PartAnswer answer;
+  answer.von_mises = Peak{};
+  answer.von_mises->value = 20e6;
+  answer.von_mises->error = 5e6;
+  LibraryMaterial material;
+  material.yield_strength = 40e6;
+  const PartVerdict verdict = judge(answer, &material, {.displacement = std::nullopt, .safety = 2.2});
+  EXPECT_FALSE(verdict.holds);
+  EXPECT_DOUBLE_EQ(*verdict.safety, 2);
+  EXPECT_DOUBLE_EQ(verdict.min_safety, 1.6);
+  EXPECT_DOUBLE_EQ(verdict.max_safety, 40.0 / 15);
+  const std::string bar = "bar.obj --fix x-low --load x-high:100N:-y --material steel";
+  const nlohmann::json made = this->answer(bar);
+  const auto range = made.at("safety_range").get<std::array<double, 2>>();
+  ASSERT_LT(range[0], made.at("safety").get<double>());
+  const std::string between = fmt::format("{}", (range[0] + made.at("safety").get<double>()) / 2);
+  const ProgramRun close = run(bar + " --safety " + between);
+  EXPECT_EQ(close.exit_code, 0);
+  EXPECT_NE(close.out.find("kept, but within the error: more --bricks decide"), std::string::npos) << close.out;
+  EXPECT_NE(close.out.find(") against the yield strength"), std::string::npos) << close.out;
 }
 
 TEST_F(Load, LargeDisplacementsAreSolvedForAsSuch) {
