@@ -72,14 +72,15 @@ double lowest_kept_point(const SoftBody& body) {
 
 }  // namespace
 
-Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson) {
+Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson, const StrainEnergyLaw& law) {
   Dice dice(seed, index);
   const Material material{.name = "random",
                           .young = dice.log_between(1e3, 1e9),
                           .poisson = dice.between(min_poisson, 0.49),
                           .density = dice.log_between(100, 5000),
                           .damping = dice.whole(0, 3) == 0 ? 0 : dice.log_between(1e-3, 1),
-                          .source = ""};
+                          .source = "",
+                          .law = law};
   const double size = dice.log_between(1e-3, 10);
   const auto shape = static_cast<Shape>(dice.whole(0, 3));
   Drop drop;

@@ -16,7 +16,8 @@ struct Drop {
 };
 
 /// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `min_poisson` to 0.49.
-[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson);
+[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double min_poisson,
+                               const StrainEnergyLaw& law = {});
 
 /// The outcome of a drop.
 struct DropResult {

@@ -14,6 +14,7 @@ struct Options {
   std::uint32_t drops = 100;
   double min_poisson = -0.2;
   std::string model = "calibrated";
+  std::string law = "neo-hooke";
   bool verbose = false;
 };
 
@@ -26,12 +27,25 @@ void print(std::uint32_t seed, std::uint32_t index, const Drop& drop, const Drop
   std::fflush(stdout);
 }
 
+/// With parameters that are common for rubbers and tissues.
+StrainEnergyLaw law_named(const std::string& name) {
+  if (name == "mooney-rivlin") return {.kind = StrainEnergyKind::kMooneyRivlin, .mooney_share = 0.3};
+  if (name == "ogden") {
+    return {.kind = StrainEnergyKind::kOgden, .ogden_exponents = {1.3, 5, -2}, .ogden_shares = {0.75, 0.05, 0.2}};
+  }
+  if (name == "fung") return {.kind = StrainEnergyKind::kFung, .fung_exponent = 1};
+  if (name == "linear") return {.kind = StrainEnergyKind::kLinear};
+  return {};
+}
+
 /// How many drops failed.
 int soak(const Options& options) {
   int failed = 0;
+  const Model model = model_from_name(options.model);
+  const StrainEnergyLaw law = law_named(options.law);
   for (std::uint32_t index = options.first; index < options.first + options.drops; ++index) {
     const auto start = std::chrono::steady_clock::now();
-    Drop drop = random_drop(options.seed, index, model_from_name(options.model), options.min_poisson);
+    Drop drop = random_drop(options.seed, index, model, options.min_poisson, law);
     const DropResult result = run_drop(drop);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     failed += result.fault.empty() ? 0 : 1;
@@ -54,6 +68,8 @@ int main(int argc, char** argv) {
   app.add_option("--first", options.first, "number of the first drop: to see one again, with --drops 1");
   app.add_option("--least-poisson", options.min_poisson, "of the materials")->check(CLI::Range(-0.9, 0.49));
   app.add_option("--model", options.model, "of the bricks");
+  app.add_option("--law", options.law, "of the materials")
+      ->check(CLI::IsMember({"neo-hooke", "mooney-rivlin", "ogden", "fung", "linear"}));
   app.add_flag("--verbose", options.verbose, "a line for every drop, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
   return sprung::test::soak(options) == 0 ? 0 : 1;
