@@ -18,7 +18,7 @@ enum class StrainEnergyKind {
   /// w_p the shares of the terms in G, which add up to 1:
   /// sum over p: 2 G w_p / alpha_p^2 (s_1^alpha_p + s_2^alpha_p + s_3^alpha_p - 3 - alpha_p log J) + lambda/2 (J - 1)^2
   kOgden,
-  /// G / (2 b) (exp(b (I1 - 3 - 2 log J)) - 1) + lambda/2 (J - 1)^2, the exponential of soft tissues
+  /// G / (2 b) (exp(2 b W / G) - 1) with W that of kNeoHooke, which is b (I1 - 3) without change of volume: for tissues
   kFung,
   /// lambda/2 tr(E)^2 + G E : E with Green's strain E: St. Venant and Kirchhoff's, linear between that strain and its
   /// conjugate stress. It gives way in compression beyond 42 %.

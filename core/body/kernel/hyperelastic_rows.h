@@ -111,24 +111,6 @@ template <class Function>
       psi.by_1 = Pack(terms.by_i1);
       psi.by_2 = Pack(terms.by_i2);
       break;
-    case StrainEnergyKind::kFung: {
-      const OfVolume log = of_volume(1, 0, j);
-      const double b = terms.exponent;
-      const Pack argument =
-          b * (i1 - 3.0 + 2.0 * by_lane([&](auto lane) { return volume_energy(1, 0, double(j[lane])); }));
-      const Pack beyond = simd::max(argument - kLargestExponent, Pack(0.0));
-      const Pack power =
-          by_lane([&](auto lane) { return std::exp(std::min(double(argument[lane]), kLargestExponent)); });
-      const Pack first = shear * power * (1.0 + beyond);
-      const Pack second = 2 * b * shear * power;
-      psi.value = shear / (2 * b) * (power * (1.0 + beyond + 0.5 * beyond * beyond) - 1.0);
-      psi.by_1 = 0.5 * first;
-      psi.by_j += first * log.slope;
-      psi.by_11 = 0.25 * second;
-      psi.by_1j = 0.5 * second * log.slope;
-      psi.by_jj += first * log.curvature + second * log.slope * log.slope;
-      break;
-    }
     case StrainEnergyKind::kLinear:
       psi.value = terms.lambda / 8 * (i1 - 3.0) * (i1 - 3.0) + 0.25 * shear * (i1 * i1 - 2.0 * i2 - 2.0 * i1 + 3.0);
       psi.by_1 = 0.25 * terms.lambda * (i1 - 3.0) + 0.5 * shear * (i1 - 1.0);
@@ -136,10 +118,25 @@ template <class Function>
       psi.by_11 = Pack(0.25 * terms.lambda + 0.5 * shear);
       break;
     case StrainEnergyKind::kNeoHooke:
+    case StrainEnergyKind::kFung:
     case StrainEnergyKind::kOgden:
-      break;  // PackOfSolids; by stretches
+      break;  // the first two: PackOfSolids; by stretches
   }
   return psi;
+}
+
+/// As sprung::Stiffening, for a pack of energies.
+struct PackStiffening {
+  Pack energy;
+  Pack slope;
+  Pack curvature;
+};
+[[nodiscard]] [[gnu::noinline]] inline PackStiffening stiffening_of(double per_energy, const Pack& plain) {
+  const Pack argument = per_energy * plain;
+  const Pack beyond = simd::max(argument - kLargestExponent, Pack(0.0));
+  const Pack power = by_lane([&](auto lane) { return std::exp(std::min(double(argument[lane]), kLargestExponent)); });
+  return {(power * (1.0 + beyond + 0.5 * beyond * beyond) - 1.0) / per_energy, power * (1.0 + beyond),
+          per_energy * power};
 }
 
 /// C = Q diag(values) Q^T.

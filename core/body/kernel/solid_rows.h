@@ -166,7 +166,14 @@ class PackOfSolids {
     const Gradient gradient = bent<kCut>(f, shear);
     Differences asked = z;
     Gradient stress{};
-    if constexpr (kPart != Part::kDamping) stress = elastic_stress(gradient);
+    if constexpr (kPart != Part::kDamping) {
+      stress = elastic_stress(gradient);
+      if (is_fung()) {
+        const Pack slope = stiffening(gradient, z).slope;
+        stress = times(slope, stress);
+        for (Pack& one : asked) one *= slope;
+      }
+    }
     if constexpr (is_damped(kPart)) {
       const TrilinearMap moves = trilinear_map(corners, kVelocity);
       const Differences change = changes(map, moves);
@@ -176,7 +183,7 @@ class PackOfSolids {
       stress = kPart == Part::kDamping ? viscous : stress + viscous;
 #pragma GCC unroll 12
       for (std::size_t i = 0; i < kDifferences; ++i) {
-        asked[i] = kPart == Part::kDamping ? Pack(beta * change[i]) : Pack(z[i] + beta * change[i]);
+        asked[i] = kPart == Part::kDamping ? Pack(beta * change[i]) : Pack(asked[i] + beta * change[i]);
       }
     }
     const Pack share = -numbers_.share();
@@ -205,6 +212,8 @@ class PackOfSolids {
     Pack curvature;  // likewise, second
     Gradient stress;
     Differences force;
+    PackStiffening by;             // of kFung: of the neo-Hookean energy over the share,
+    TrilinearMap slope_of_energy;  // and that energy's derivative, times the share
   };
   [[nodiscard]] [[gnu::always_inline]] State state(const TrilinearMap& map) const {
     State at{};
@@ -225,6 +234,12 @@ class PackOfSolids {
     }
     at.force = stiffness_times(share, z);
     if constexpr (kCut) add_shear_force(at.f, at.stress, at.force);
+    if (is_fung()) {
+      at.by = stiffening(at.gradient, z);
+      at.slope_of_energy = secant_pull(bent<kCut>(at.stress, at.shear));
+      Differences force = at.force;
+      add_pull(map, force, at.slope_of_energy);
+    }
     return at;
   }
 
@@ -248,6 +263,7 @@ class PackOfSolids {
     add_pull(at.map, force_change, pull);
     Differences force = at.force;
     add_pull(moves, force, pull);
+    if (is_fung()) stiffen(at, moves, share, pull);
     return pull;
   }
 
@@ -261,7 +277,8 @@ class PackOfSolids {
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < kDifferences; ++i) bending += z[i] * force[i];
     const Pack strain = is_neo_hookean() ? neo_hookean_energy(f) : hyperelastic_energy(law_.psi, f);
-    return numbers_.share() * (strain + 0.5 * bending);
+    const Pack all = strain + 0.5 * bending;
+    return numbers_.share() * (is_fung() ? stiffening_of(per_energy(), all).energy : all);
   }
 
  private:
@@ -421,8 +438,30 @@ class PackOfSolids {
     return force;
   }
 
+  /// The strain energy by itself, without the exponential of Fung, which takes in the whole brick.
   [[nodiscard]] [[gnu::always_inline]] bool is_neo_hookean() const {
-    return law_.psi.kind == StrainEnergyKind::kNeoHooke;
+    return law_.psi.kind == StrainEnergyKind::kNeoHooke || is_fung();
+  }
+  [[nodiscard]] [[gnu::always_inline]] bool is_fung() const { return law_.psi.kind == StrainEnergyKind::kFung; }
+
+  /// 2 b / (G V), 1/J.
+  [[nodiscard]] double per_energy() const { return 2 * law_.psi.exponent / law_.shear; }
+
+  /// Of the neo-Hookean energy for a share of 1.
+  [[nodiscard]] [[gnu::noinline]] PackStiffening stiffening(const Gradient& f, const Differences& z) const {
+    const Differences force = stiffness_times(Pack(1.0), z);
+    Pack bending(0.0);
+    for (std::size_t i = 0; i < kDifferences; ++i) bending += z[i] * force[i];
+    return stiffening_of(per_energy(), neo_hookean_energy(f) + 0.5 * bending);
+  }
+
+  /// Turns a product with the second derivative of the neo-Hookean energy into one with Fung's.
+  [[gnu::noinline]] static void stiffen(const State& at, const TrilinearMap& moves, const Pack& share,
+                                        TrilinearMap& pull) {
+    Pack along(0.0);
+    for (std::size_t n = 0; n < 8; ++n) along += dot(at.slope_of_energy[n], moves[n]);
+    const Pack more = at.by.curvature * along / simd::max(share, Pack(1e-300));  // of no brick: 0
+    for (std::size_t n = 0; n < 8; ++n) pull[n] = at.by.slope * pull[n] + more * at.slope_of_energy[n];
   }
 
   [[nodiscard]] [[gnu::always_inline]] Pack neo_hookean_energy(const Gradient& f) const {

@@ -32,6 +32,7 @@ HyperelasticTerms hyperelastic_terms(const Material& material, double factor) {
       }
       break;
     case StrainEnergyKind::kFung:
+      terms.log_volume = shear;
       terms.exponent = law.fung_exponent.value();
       break;
     case StrainEnergyKind::kLinear:
@@ -39,6 +40,14 @@ HyperelasticTerms hyperelastic_terms(const Material& material, double factor) {
       break;
   }
   return terms;
+}
+
+Stiffening::Stiffening(double per_energy, double plain) {
+  const double beyond = std::max(per_energy * plain - kLargestExponent, 0.0);
+  const double power = std::exp(std::min(per_energy * plain, kLargestExponent));
+  energy = (power * (1 + beyond + 0.5 * beyond * beyond) - 1) / per_energy;
+  slope = power * (1 + beyond);
+  curvature = per_energy * power;
 }
 
 double volume_energy(double log_volume, double square_volume, double ratio) {

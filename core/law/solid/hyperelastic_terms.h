@@ -13,13 +13,24 @@ inline constexpr double kLowestStretch = 0.1;
 /// The exponent beyond which the exponential of Fung continues as a parabola: the solid is 400 times as stiff there.
 inline constexpr double kLargestExponent = 6;
 
+/// (exp(a W) - 1) / a, continued as StrainEnergy says, and its derivatives by W.
+struct Stiffening {
+  double energy = 0;
+  double slope = 1;
+  double curvature = 0;
+
+  Stiffening(double energy_, double slope_, double curvature_)
+      : energy(energy_), slope(slope_), curvature(curvature_) {}
+  Stiffening(double per_energy, double plain);
+};
+
 /// psi of a material with numbers for its law, all moduli in Pa (or what they are multiplied by): of log J as well as
 /// of I1, I2 and the principal stretches.
 struct HyperelasticTerms {
   StrainEnergyKind kind = StrainEnergyKind::kNeoHooke;
   double shear = 0;          // G
   double lambda = 0;         // lambda
-  double log_volume = 0;     // psi contains minus this times log J; for kFung, its exponent's argument does
+  double log_volume = 0;     // psi contains minus this times log J, that of kFung in its exponent
   double square_volume = 0;  // and half of this times (J - 1)^2
   double by_i1 = 0;          // kMooneyRivlin: d psi / d I1
   double by_i2 = 0;          // likewise of I2

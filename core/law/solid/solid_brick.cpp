@@ -8,6 +8,13 @@ namespace sprung {
 namespace {
 
 constexpr int kGradients = StrainDifferences::kGradients;
+double fung_exponent(const Material& material) { return material.law.fung_exponent.value_or(0); }
+
+Material plain_if_fung(Material material) {
+  if (material.law.kind == StrainEnergyKind::kFung) material.law = {};
+  return material;
+}
+
 constexpr double kFarthestCentroid = 0.45;  // brick lengths, along each axis
 constexpr double kWarping = 3;              // over a plate's E m m; less leaves bodies of slanted bricks softer still
 
@@ -15,7 +22,8 @@ constexpr double kWarping = 3;              // over a plate's E m m; less leaves
 
 SolidBrick::SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments,
                        const CurvedSolid& curved)
-    : law_(material),
+    : law_(plain_if_fung(material)),
+      per_energy_(fung_exponent(material) * 2 / (material.shear_modulus() * fill * h * h * h)),
       volume_(fill * h * h * h),
       weights_(trilinear_gradients(Vec3::Constant(0.5) + moments.centroid) / h),
       differences_(h, moments.centroid),
@@ -31,18 +39,31 @@ SolidBrick::Deformation SolidBrick::deformation(const BrickVector& x) const {
   return {.z = z, .secant = secant(x), .bent = Mat3::Identity() + shear(z)};
 }
 
-double SolidBrick::energy(const BrickVector& x) const {
-  const Deformation at = deformation(x);
+double SolidBrick::plain_energy(const Deformation& at) const {
   return volume_ * law_.energy(at.gradient()) + 0.5 * at.z.dot(stiffness_ * at.z);
 }
 
+Stiffening SolidBrick::stiffening(const Deformation& at) const {
+  return per_energy_ == 0 ? Stiffening{plain_energy(at), 1, 0} : Stiffening(per_energy_, plain_energy(at));
+}
+
+double SolidBrick::energy(const BrickVector& x) const { return stiffening(deformation(x)).energy; }
+
 BrickVector SolidBrick::forces(const BrickVector& x) const {
   const Deformation at = deformation(x);
-  return -pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
+  return -stiffening(at).slope * pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
 }
 
 BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
   const Deformation at = deformation(x);
+  const Stiffening by = stiffening(at);
+  BrickMatrix matrix = by.slope * plain_hessian(x, at, definite);
+  if (by.curvature == 0) return matrix;
+  const BrickVector slope = pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
+  return matrix + by.curvature * slope * slope.transpose();
+}
+
+BrickMatrix SolidBrick::plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const {
   const StrainDifferences::Rates rates = differences_.rates(x);
   const GradientRates of_gradient = gradient_rates(at, rates);
   const Mat3 gradient = at.gradient();

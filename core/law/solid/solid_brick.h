@@ -12,6 +12,7 @@ namespace sprung {
 /// A brick with a known distribution of its solid. Its energy, with z = (b, t, q) the differences of its springs'
 /// squared lengths (StrainDifferences) and S, K those of its solid (CurvedSolid):
 ///   W = V psi(F (I + S z)) + 1/2 E V h^2 (b, t)^T K (b, t) + 3/2 sum over i: E m_jj m_kk / V q_i^2
+/// With the law of Fung, this W of a neo-Hookean brick, over V, stands in its exponential: bending stiffens as strain.
 /// F is the gradient of the trilinear map of the corners at the centroid. Full or cut by the surface, it is accurate to
 /// first order and at any strain; momentum and angular momentum are conserved exactly. As an element, a uniform-strain
 /// hexahedron with physical hourglass stabilisation (Flanagan, Belytschko, Int. J. Numer. Meth. Engng 17, 1981; Puso,
@@ -66,7 +67,13 @@ class SolidBrick {
   /// The rates of gradient().
   [[nodiscard]] GradientRates gradient_rates(const Deformation& at, const StrainDifferences::Rates& rates) const;
 
-  StrainEnergy law_;
+  [[nodiscard]] BrickMatrix plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const;
+  /// The energy of a neo-Hookean brick, the whole of which stands in the exponential of Fung's.
+  [[nodiscard]] double plain_energy(const Deformation& at) const;
+  [[nodiscard]] Stiffening stiffening(const Deformation& at) const;
+
+  StrainEnergy law_;   // of kFung: neo-Hookean
+  double per_energy_;  // 2 b / (G V) of kFung, 1/J; else 0
   double volume_;
   Eigen::Matrix<double, 8, 3> weights_;  // gradients of the corners' trilinear weights at the centroid, 1/m
   StrainDifferences differences_;

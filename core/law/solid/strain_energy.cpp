@@ -104,19 +104,13 @@ InvariantEnergy of_invariants(const HyperelasticTerms& terms, double i1, double 
       psi.by_2 = terms.by_i2;
       break;
     case StrainEnergyKind::kFung: {
-      const VolumeEnergy log(1, 0, j);
-      const double b = terms.exponent;
-      const double argument = b * (i1 - 3 + 2 * log.value);
-      const double beyond = std::max(argument - kLargestExponent, 0.0);
-      const double power = std::exp(std::min(argument, kLargestExponent));
-      const double first = shear * power * (1 + beyond);
-      const double second = 2 * b * shear * power;
-      psi.value += shear / (2 * b) * (power * (1 + beyond + 0.5 * beyond * beyond) - 1);
-      psi.by_1 = 0.5 * first;
-      psi.by_j += first * log.slope;
-      psi.by_11 = 0.25 * second;
-      psi.by_1j = 0.5 * second * log.slope;
-      psi.by_jj += first * log.curvature + second * log.slope * log.slope;
+      const Stiffening by(2 * terms.exponent / shear, 0.5 * shear * (i1 - 3) + volume.value);
+      psi.value = by.energy;
+      psi.by_1 = 0.5 * shear * by.slope;
+      psi.by_j = by.slope * volume.slope;
+      psi.by_11 = 0.25 * shear * shear * by.curvature;
+      psi.by_1j = 0.5 * shear * by.curvature * volume.slope;
+      psi.by_jj = by.slope * volume.curvature + by.curvature * volume.slope * volume.slope;
       break;
     }
     case StrainEnergyKind::kLinear:

@@ -143,6 +143,18 @@ TEST(StrainEnergy, OfTheLinearLawIsThatOfStVenantAndKirchhoff) {
   }
 }
 
+/// Its exponential stiffens the response to changes of volume as that to shear: a bar thins as a neo-Hookean one does.
+TEST(StrainEnergy, OfFungStiffensWithoutChangingHowABarThins) {
+  const StrainEnergy plain(material_of_law({}, 0.35));
+  const StrainEnergy fung(material_of_law({.kind = StrainEnergyKind::kFung, .fung_exponent = 2}, 0.35));
+  for (const double stretch : {0.7, 1.5, 2.0}) {
+    const auto [plain_stress, plain_sideways] = uniaxial(plain, stretch);
+    const auto [stress, sideways] = uniaxial(fung, stretch);
+    EXPECT_NEAR(sideways, plain_sideways, 1e-9) << stretch;
+    EXPECT_GT(stress / plain_stress, 1.2) << stretch;
+  }
+}
+
 TEST(StrainEnergy, IsFiniteForEveryGradient) {
   for (const StrainEnergyLaw& law : test::kStrainEnergyLaws) {
     const StrainEnergy psi(material_of_law(law, 0.45));
