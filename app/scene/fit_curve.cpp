@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <unsupported/Eigen/NumericalDiff>
+#include <utility>
 
 #include "app/scene/tension_curve.h"
 #include "core/error.h"
@@ -116,14 +118,13 @@ double first_guess(const TensionCurve& curve) {
 CurveFit fit_family(const TensionCurve& curve, const Family& family, double poisson) {
   double largest = 0;
   for (const double stress : curve.stresses) largest = std::max(largest, std::abs(stress));
-  const Eigen::NumericalDiff<Residuals> residuals(Residuals{curve, family, poisson, kMinShare * largest});
+  Eigen::NumericalDiff<Residuals> residuals(Residuals{curve, family, poisson, kMinShare * largest});
   CurveFit best{.error = std::numeric_limits<double>::infinity()};
   for (const std::vector<double>& start : family.starts) {
     Parameters x(family.size());
     x[0] = std::log(first_guess(curve));
     for (std::size_t i = 0; i < start.size(); ++i) x[Eigen::Index(i) + 1] = start[i];
-    Eigen::NumericalDiff<Residuals> problem(residuals);
-    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> optimiser(problem);
+    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> optimiser(residuals);
     optimiser.parameters.maxfev = 400;
     optimiser.minimize(x);
     Eigen::VectorXd errors;
@@ -161,6 +162,7 @@ void round_parameters(CurveFit& fit) {
 CurveFit fit_curve(const TensionCurve& curve, double poisson, const StrainEnergyKind* kind) {
   constexpr std::size_t kMinPoints = 3;
   constexpr double kNotWorse = 1.1;
+  constexpr double kEqual = 1e-4;
   std::size_t points = 0;
   for (std::size_t i = 0; i < curve.stretches.size(); ++i) {
     if (curve.stretches[i] != 1 && curve.stresses[i] != 0) ++points;
@@ -169,27 +171,23 @@ CurveFit fit_curve(const TensionCurve& curve, double poisson, const StrainEnergy
     throw Error(ErrorKind::kBadInput,
                 fmt::format("a law is fitted to three points away from rest or more; the curve has {}", points));
   }
-  std::vector<CurveFit> fits;
-  std::vector<std::size_t> sizes;
+  std::vector<std::pair<std::size_t, CurveFit>> fits;  // by the number of their parameters
   for (const Family& family : families()) {
     const bool is_wanted = kind != nullptr ? family.kind == *kind : family.kind != StrainEnergyKind::kLinear;
     if (!is_wanted || family.size() > points) continue;
-    fits.push_back(fit_family(curve, family, poisson));
-    sizes.push_back(family.size());
+    fits.emplace_back(family.size(), fit_family(curve, family, poisson));
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const CurveFit& fit : fits) least = std::min(least, fit.error);
-  std::size_t chosen = 0;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const bool is_close = fits[i].error <= kNotWorse * least + 1e-4;
-    const bool chosen_is_close = fits[chosen].error <= kNotWorse * least + 1e-4;
-    if (is_close && (!chosen_is_close || sizes[i] < sizes[chosen] ||
-                     (sizes[i] == sizes[chosen] && fits[i].error < fits[chosen].error))) {
-      chosen = i;
-    }
-  }
-  round_parameters(fits[chosen]);
-  return fits[chosen];
+  for (const auto& [size, fit] : fits) least = std::min(least, fit.error);
+  const auto rank = [&](const std::pair<std::size_t, CurveFit>& one) {
+    const auto& [size, fit] = one;
+    return std::tuple(fit.error > kNotWorse * least + kEqual, size, fit.error);
+  };
+  CurveFit chosen = std::min_element(fits.begin(), fits.end(), [&](const auto& a, const auto& b) {
+                      return rank(a) < rank(b);
+                    })->second;
+  round_parameters(chosen);
+  return chosen;
 }
 
 }  // namespace sprung

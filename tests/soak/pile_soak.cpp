@@ -170,8 +170,7 @@ int main(int argc, char** argv) {
   sprung::test::Options options;
   CLI::App app(
       "Piles up random bodies and fails where the motion diverges, a brick ends inside out or drawn skins cross by "
-      "more "
-      "than 0.1 % of the size.");
+      "more than 0.1 % of the size.");
   app.add_option("--piles", options.piles, "how many");
   app.add_option("--seed", options.seed, "of the series");
   app.add_option("--first", options.first, "number of the first pile: to see one again, with --piles 1");

@@ -15,12 +15,10 @@ inline constexpr double kLargestExponent = 6;
 
 /// (exp(a W) - 1) / a, continued as StrainEnergy says, and its derivatives by W.
 struct Stiffening {
-  double energy = 0;
-  double slope = 1;
-  double curvature = 0;
+  double energy;
+  double slope;
+  double curvature;
 
-  Stiffening(double energy_, double slope_, double curvature_)
-      : energy(energy_), slope(slope_), curvature(curvature_) {}
   Stiffening(double per_energy, double plain);
 };
 

@@ -8,23 +8,23 @@ namespace sprung {
 namespace {
 
 constexpr int kGradients = StrainDifferences::kGradients;
-double fung_exponent(const Material& material) { return material.law.fung_exponent.value_or(0); }
-
-Material plain_if_fung(Material material) {
-  if (material.law.kind == StrainEnergyKind::kFung) material.law = {};
-  return material;
-}
-
 constexpr double kFarthestCentroid = 0.45;  // brick lengths, along each axis
 constexpr double kWarping = 3;              // over a plate's E m m; less leaves bodies of slanted bricks softer still
+
+/// Of the law of Fung, what stands in the exponential.
+HyperelasticTerms plain_terms(const Material& material) {
+  HyperelasticTerms terms = hyperelastic_terms(material);
+  if (terms.kind == StrainEnergyKind::kFung) terms.kind = StrainEnergyKind::kNeoHooke;
+  return terms;
+}
 
 }  // namespace
 
 SolidBrick::SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments,
                        const CurvedSolid& curved)
-    : law_(plain_if_fung(material)),
-      per_energy_(fung_exponent(material) * 2 / (material.shear_modulus() * fill * h * h * h)),
+    : law_(plain_terms(material)),
       volume_(fill * h * h * h),
+      per_energy_(2 * material.law.fung_exponent.value_or(0) / (material.shear_modulus() * volume_)),
       weights_(trilinear_gradients(Vec3::Constant(0.5) + moments.centroid) / h),
       differences_(h, moments.centroid),
       tangent_(h * curved.tangent) {
@@ -43,24 +43,24 @@ double SolidBrick::plain_energy(const Deformation& at) const {
   return volume_ * law_.energy(at.gradient()) + 0.5 * at.z.dot(stiffness_ * at.z);
 }
 
-Stiffening SolidBrick::stiffening(const Deformation& at) const {
-  return per_energy_ == 0 ? Stiffening{plain_energy(at), 1, 0} : Stiffening(per_energy_, plain_energy(at));
+double SolidBrick::energy(const BrickVector& x) const {
+  const double plain = plain_energy(deformation(x));
+  return is_fung() ? Stiffening(per_energy_, plain).energy : plain;
 }
-
-double SolidBrick::energy(const BrickVector& x) const { return stiffening(deformation(x)).energy; }
 
 BrickVector SolidBrick::forces(const BrickVector& x) const {
   const Deformation at = deformation(x);
-  return -stiffening(at).slope * pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
+  const BrickVector plain = -pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
+  return is_fung() ? BrickVector(Stiffening(per_energy_, plain_energy(at)).slope * plain) : plain;
 }
 
 BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
   const Deformation at = deformation(x);
-  const Stiffening by = stiffening(at);
-  BrickMatrix matrix = by.slope * plain_hessian(x, at, definite);
-  if (by.curvature == 0) return matrix;
+  const BrickMatrix plain = plain_hessian(x, at, definite);
+  if (!is_fung()) return plain;
+  const Stiffening by(per_energy_, plain_energy(at));
   const BrickVector slope = pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
-  return matrix + by.curvature * slope * slope.transpose();
+  return by.slope * plain + by.curvature * slope * slope.transpose();
 }
 
 BrickMatrix SolidBrick::plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const {

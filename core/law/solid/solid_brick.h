@@ -67,14 +67,14 @@ class SolidBrick {
   /// The rates of gradient().
   [[nodiscard]] GradientRates gradient_rates(const Deformation& at, const StrainDifferences::Rates& rates) const;
 
-  [[nodiscard]] BrickMatrix plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const;
-  /// The energy of a neo-Hookean brick, the whole of which stands in the exponential of Fung's.
+  /// The energy and its second derivative, of kFung those of what stands in its exponential.
   [[nodiscard]] double plain_energy(const Deformation& at) const;
-  [[nodiscard]] Stiffening stiffening(const Deformation& at) const;
+  [[nodiscard]] BrickMatrix plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const;
+  [[nodiscard]] bool is_fung() const { return per_energy_ > 0; }
 
-  StrainEnergy law_;   // of kFung: neo-Hookean
-  double per_energy_;  // 2 b / (G V) of kFung, 1/J; else 0
+  StrainEnergy law_;  // of kFung: neo-Hookean
   double volume_;
+  double per_energy_;                    // 2 b / (G V) of kFung, 1/J; else 0
   Eigen::Matrix<double, 8, 3> weights_;  // gradients of the corners' trilinear weights at the centroid, 1/m
   StrainDifferences differences_;
   Eigen::Matrix<double, StrainDifferences::kAll, StrainDifferences::kAll> stiffness_;  // of z

@@ -218,8 +218,6 @@ GradientMatrix principal_hessian(const HyperelasticTerms& terms, const Mat3& gra
 
 }  // namespace
 
-StrainEnergy::StrainEnergy(const Material& material) : terms_(hyperelastic_terms(material)) {}
-
 double StrainEnergy::energy(const Mat3& gradient) const {
   if (terms_.kind == StrainEnergyKind::kOgden) {
     return principal_energy(terms_, PrincipalStretches(gradient).stretches).value;

@@ -21,7 +21,8 @@ using GradientMatrix = Eigen::Matrix<double, 9, 9>;
 /// with (J - 1)^2 instead of (log J)^2.
 class StrainEnergy {
  public:
-  explicit StrainEnergy(const Material& material);
+  explicit StrainEnergy(const Material& material) : StrainEnergy(hyperelastic_terms(material)) {}
+  explicit StrainEnergy(const HyperelasticTerms& terms) : terms_(terms) {}
 
   /// J/m^3; 0 at rest.
   [[nodiscard]] double energy(const Mat3& gradient) const;
