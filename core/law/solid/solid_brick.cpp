@@ -56,11 +56,14 @@ BrickVector SolidBrick::forces(const BrickVector& x) const {
 
 BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
   const Deformation at = deformation(x);
-  const BrickMatrix plain = plain_hessian(x, at, definite);
-  if (!is_fung()) return plain;
-  const Stiffening by(per_energy_, plain_energy(at));
-  const BrickVector slope = pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
-  return by.slope * plain + by.curvature * slope * slope.transpose();
+  BrickMatrix matrix = plain_hessian(x, at, definite);
+  if (is_fung()) {
+    const Stiffening by(per_energy_, plain_energy(at));
+    const BrickVector slope = pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
+    matrix *= by.slope;
+    matrix += by.curvature * slope * slope.transpose();
+  }
+  return matrix;
 }
 
 BrickMatrix SolidBrick::plain_hessian(const BrickVector& x, const Deformation& at, bool definite) const {
