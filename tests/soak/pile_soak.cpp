@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "core/simulation/simulate.h"
 #include "tests/soak/dice.h"
@@ -20,6 +23,7 @@ struct Options {
   std::uint32_t seed = 1;
   std::uint32_t first = 0;
   std::uint32_t piles = 20;
+  std::filesystem::path scenes{};
   bool verbose = false;
 };
 
@@ -144,6 +148,13 @@ Outcome run(const Pile& pile) {
   return outcome;
 }
 
+void write_scene(const Pile& pile, const std::filesystem::path& file) {
+  Film film;
+  static_cast<Scene&>(film) = pile.scene;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << print_scene(film);
+}
+
 /// How many piles failed.
 int soak(const Options& options) {
   int failed = 0;
@@ -153,6 +164,9 @@ int soak(const Options& options) {
     const Outcome outcome = run(pile);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     failed += outcome.fault.empty() ? 0 : 1;
+    if (!options.scenes.empty() && !outcome.fault.empty()) {
+      write_scene(pile, options.scenes / fmt::format("pile_{}_{}.toml", options.seed, index));
+    }
     if (!options.verbose && outcome.fault.empty()) continue;
     fmt::print("seed {} pile {}: {}: {}; deepest {:.2g} %, {:.2g} M brick-steps, {:.1f} s\n", options.seed, index,
                pile.description, outcome.fault.empty() ? "well" : outcome.fault, 100 * outcome.deepest,
@@ -174,6 +188,7 @@ int main(int argc, char** argv) {
   app.add_option("--piles", options.piles, "how many");
   app.add_option("--seed", options.seed, "of the series");
   app.add_option("--first", options.first, "number of the first pile: to see one again, with --piles 1");
+  app.add_option("--scenes", options.scenes, "folder to write the scenes of those that fail into");
   app.add_flag("--verbose", options.verbose, "a line for every pile, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
   return sprung::test::soak(options) == 0 ? 0 : 1;
