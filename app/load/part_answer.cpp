@@ -18,6 +18,7 @@ constexpr double kSafetyOfTwoGrids = 3;  // Roache's
 constexpr double kAround = 1.5;          // bricks of the coarser grid: search radius for its value at a position
 constexpr double kLeftOut = 3;           // of its bricks, around a singular place
 constexpr int kMaxSingular = 60;         // places; beyond that nothing is resolved
+constexpr double kCorner = 50;           // degrees
 
 }  // namespace
 
@@ -45,17 +46,33 @@ struct SkinScalar {
   }
 };
 
-/// Lines along which the exact stress is unbounded: sharp re-entrant edges, and supports, which end somewhere.
-class SingularLines {
+/// Points on a line, at most a brick apart.
+class DottedLines {
  public:
-  SingularLines(const LoadPart& part, const PartSolution& solution);
-  /// Within `reach` (m) of one; `position` (m) in the frame of LoadedBody.
+  void add(const Vec3& point) { points_.push_back(point); }
   [[nodiscard]] bool is_near(const Vec3& position, double reach) const {
-    return ((points_.rowwise() - position.transpose()).rowwise().squaredNorm().array() <= reach * reach).any();
+    return std::any_of(points_.begin(), points_.end(),
+                       [&](const Vec3& point) { return (point - position).squaredNorm() <= reach * reach; });
   }
 
  private:
-  Points points_;  // n x 3, m, at most a brick apart
+  std::vector<Vec3> points_;
+};
+
+/// Where the exact stress is unbounded: inner corners, and supports, which end somewhere.
+class SingularLines {
+ public:
+  SingularLines(const LoadPart& part, const PartSolution& solution);
+  /// The a of stress ~ size^-a from which on a peak at `position` (m, in the frame of LoadedBody) is singular; infinite
+  /// if none of the lines is within `reach` (m).
+  [[nodiscard]] double min_exponent(const Vec3& position, double reach) const {
+    if (corners_.is_near(position, reach)) return kSingularAtCorner;
+    return others_.is_near(position, reach) ? kSingular : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  DottedLines corners_;  // inner edges that turn by kCorner
+  DottedLines others_;   // blunter ones, which may stand for a rounding, and supports
 };
 
 struct FoundPeak {
@@ -64,26 +81,27 @@ struct FoundPeak {
 };
 
 SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution) {
-  std::vector<Vec3> points;
   const double apart = solution.brick_size;
-  for (const Solid& solid : part.loaded.solids) {
-    for (const std::array<int, 2>& edge : sharp_inner_edges(solid.points, solid.triangles)) {
-      const Vec3 a = solid.points.row(edge[0]);
-      const Vec3 b = solid.points.row(edge[1]);
-      const int count = 1 + int((b - a).norm() / apart);
-      for (int i = 0; i <= count; ++i) points.emplace_back(a + double(i) / count * (b - a));
+  const auto add_edges = [&](double min_turn, DottedLines& lines) {
+    for (const Solid& solid : part.loaded.solids) {
+      for (const std::array<int, 2>& edge : sharp_inner_edges(solid.points, solid.triangles, min_turn)) {
+        const Vec3 a = solid.points.row(edge[0]);
+        const Vec3 b = solid.points.row(edge[1]);
+        const int count = 1 + int((b - a).norm() / apart);
+        for (int i = 0; i <= count; ++i) lines.add(a + double(i) / count * (b - a));
+      }
     }
-  }
+  };
+  add_edges(kCorner, corners_);
+  add_edges(kSharpEdge, others_);
   const Simulation& simulation = solution.simulation;
   for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
     const Body& body = simulation.world.bodies[row];
     for (const PinnedSkin& skin : simulation.origins[row].pinned_skins) {
       const Points pinned = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
-      for (const auto& point : pinned.rowwise()) points.emplace_back(point.transpose());
+      for (const auto& point : pinned.rowwise()) others_.add(point.transpose());
     }
   }
-  points_.resize(Eigen::Index(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) points_.row(Eigen::Index(i)) = points[i].transpose();
 }
 
 /// The largest value that does not grow under refinement; the scalar is positive where it matters.
@@ -111,8 +129,8 @@ FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const 
       return found;
     }
     const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, position), 1e-300)) / std::log(ratio);
-    const double least = singular.empty() ? kSingular : kSingular / 2;  // the rest of a known singular line
-    if (exponent < least || !lines.is_near(position, kAround * scalar.sizes[coarsest])) {
+    const double known = singular.empty() ? 1 : 0.5;  // the rest of a known singular line
+    if (exponent < known * lines.min_exponent(position, kAround * scalar.sizes[coarsest])) {
       peak.error = 0;
       for (std::size_t grid = 1; grid <= coarsest; ++grid) {
         peak.error = std::max(peak.error, convergence_index(fine[row], scalar.around(grid, position),

@@ -71,8 +71,9 @@ struct PartAnswer {
 /// The results of solutions on successively coarser grids, finest first. The error of a quantity is bounded by the grid
 /// convergence index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng.
 /// 116 (1994) 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp re-entrant edge
-/// or a support, they grow like size^-kSingular or faster from the coarsest grid to the finest (half of that next to
-/// others); stresses within three of its bricks of a singularity are left out.
+/// or a support, they grow like size^-kSingular or faster from the coarsest grid to the finest, at an edge that turns
+/// by 50 degrees, where that only begins to show, like size^-kSingularAtCorner (half of either next to others);
+/// stresses within three of its bricks of a singularity are left out.
 [[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
                                    const LoadCase& loads, const PartBricks& bricks);
 
@@ -81,5 +82,6 @@ struct PartAnswer {
                                                   const std::vector<PartSolution>& solutions, const LoadPart& part);
 
 inline constexpr double kSingular = 0.2;
+inline constexpr double kSingularAtCorner = 0.03;
 
 }  // namespace sprung

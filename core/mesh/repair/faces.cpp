@@ -12,7 +12,6 @@
 namespace sprung {
 namespace {
 
-constexpr double kSharpEdge = 30;    // degrees
 constexpr double kInPlane = 1;       // degrees
 constexpr double kFlatShare = 0.15;  // of a smooth face: more than a facet of a curve has
 
@@ -97,14 +96,14 @@ std::vector<int> find_face(const Points& points, const Triangles& triangles, int
   return area_of(flat, areas) >= kFlatShare * area_of(smooth, areas) ? flat : smooth;
 }
 
-std::vector<std::array<int, 2>> sharp_inner_edges(const Points& points, const Triangles& triangles) {
+std::vector<std::array<int, 2>> sharp_inner_edges(const Points& points, const Triangles& triangles, double min_turn) {
   const Points areas = area_vectors(points, triangles);
   std::vector<std::array<int, 2>> edges;
   for (const auto& [edge, rows] : triangles_by_edge(points, triangles)) {
     if (rows.size() != 2) continue;
     const Vec3 one = areas.row(rows[0]).normalized();
     const Vec3 other = areas.row(rows[1]).normalized();
-    if (one.dot(other) > std::cos(kSharpEdge * std::numbers::pi / 180)) continue;
+    if (one.dot(other) > std::cos(min_turn * std::numbers::pi / 180)) continue;
     const Vec3 middle =
         points({triangles(rows[1], 0), triangles(rows[1], 1), triangles(rows[1], 2)}, Eigen::all).colwise().mean();
     if (one.dot(middle - Vec3(points.row(edge.first))) > 0) edges.push_back({edge.first, edge.second});

@@ -128,6 +128,32 @@ TEST_F(Load, SlidesHoldAcrossTheirPlaneOnly) {
   EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, where it is not quite uniform
 }
 
+/// An L of 60 mm, 10 mm thick and 20 mm wide, with a sharp inner corner at (10, 10).
+std::string angle_obj() {
+  const std::vector<std::array<int, 2>> outline{{0, 0}, {60, 0}, {60, 10}, {10, 10}, {10, 60}, {0, 60}};
+  std::string obj;
+  for (const int z : {0, 20}) {
+    for (const auto& [x, y] : outline) obj += fmt::format("v {} {} {}\n", x, y, z);
+  }
+  obj += "f 6 5 4 1\nf 4 3 2 1\nf 7 10 11 12\nf 7 8 9 10\n";
+  for (int i = 1; i <= 6; ++i) obj += fmt::format("f {} {} {} {}\n", i, i % 6 + 1, i % 6 + 7, i + 6);
+  return obj;
+}
+
+/// Whatever the bricks say there, the stress at a sharp inner corner has no bound; along the arm it is N / A + M / W.
+TEST_F(Load, SharpInnerCornerIsNamedAndLeftOut) {
+  static_cast<void>(folder_.write("angle.obj", angle_obj()));
+  const double along_arm = 20 / 200e-6 + 20 * 0.055 / (20e-3 * 100e-6 / 6);
+  for (const int bricks : {24, 48}) {
+    const nlohmann::json made =
+        answer(fmt::format("angle.obj --fix y-high --load x-high:20N:-y --bricks {}", bricks) + kSteel);
+    EXPECT_NEAR(number(made, "/von_mises_Pa/value"), along_arm, 0.01 * along_arm) << bricks;
+    ASSERT_FALSE(made.at("singular").empty()) << bricks;
+    const auto position = made.at("singular")[0].at("place").get<std::array<double, 3>>();
+    EXPECT_LT(std::hypot(position[0] - 10, position[1] - 10), 6) << bricks;
+  }
+}
+
 /// Kirsch: three times the stress far away, at the hole. In a square plate ten times as wide as the hole, and as thick
 /// as half of it, it is 3.17 times in the middle plane (finite elements: plate_with_hole in
 /// tests/references/curved.json).
