@@ -79,11 +79,13 @@ Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, dou
   return slopes;
 }
 
-/// A linear fit through the states of a brick and its neighbours.
+/// A linear fit through the states of a brick and its neighbours, shifted to its own.
 struct Line {
   Vec3 position = Vec3::Zero();  // m, in the frame of the grid
   State state{Eigen::Matrix<double, 15, 1>::Zero()};
   Slopes slopes = Slopes::Zero();
+
+  [[nodiscard]] Eigen::Matrix<double, 15, 1> at(const Vec3& x) const { return state.numbers + slopes * (x - position); }
 };
 
 class Recovery {
@@ -134,8 +136,7 @@ class Recovery {
     State mean{Eigen::Matrix<double, 15, 1>::Zero()};
     double weights = 0;
     for (const int brick : bricks_at(std::span(&node, 1))) {
-      const Line& line = lines[brick];
-      mean.numbers += grid.fill[brick] * (line.state.numbers + line.slopes * (position - line.position));
+      mean.numbers += grid.fill[brick] * lines[brick].at(position);
       weights += grid.fill[brick];
     }
     mean.numbers /= weights;
@@ -212,6 +213,8 @@ class Recovery {
           is_thin ? within * direction : Eigen::Matrix<double, 15, 1>(together * direction / variance);
       line.slopes += slope * direction.transpose();
     }
+    // Through the state of the brick itself, as far as it is filled.
+    line.state.numbers += grid.fill[brick] * (state_of(brick).numbers - line.at(middle_of(brick)));
     return line;
   }
 

@@ -61,7 +61,7 @@ inline void expect_reference(const PartCase& one, const std::filesystem::path& f
     const Json& here = answer.at("points").at(row++);
     const double stress = 1e6 * point.at("von_mises").get<double>();
     // Relative to the peak, if a point carries little compared with it.
-    const double allowed = std::max(0.1 * stress, 0.03 * 1e6 * peak);
+    const double allowed = std::max(0.02 * stress, 0.01 * 1e6 * peak);
     const double found = here.at("von_mises_Pa").at("value");
     if (is_in_the_middle(name)) continue;
     EXPECT_NEAR(found, stress, allowed) << name;

@@ -252,7 +252,7 @@ TEST_F(Load, WritesPicturesAndTables) {
 }
 
 TEST_F(Load, LimitsDecideTheExitCode) {
-  const std::string bar = "bar.obj --fix x-low --load x-high:100N:-y --material steel";
+  const std::string bar = "bar.obj --brick-size 2mm --fix x-low --load x-high:100N:-y --material steel";
   EXPECT_EQ(run(bar + " --deflection-limit 1mm --safety 1.1").exit_code, 0);
   const ProgramRun bends = run(bar + " --deflection-limit 0.1mm");
   EXPECT_EQ(bends.exit_code, 1);
@@ -274,12 +274,13 @@ TEST_F(Load, SaysWhetherTheErrorCouldTurnAVerdictRound) {
   EXPECT_DOUBLE_EQ(*verdict.safety, 2);
   EXPECT_DOUBLE_EQ(verdict.min_safety, 1.6);
   EXPECT_DOUBLE_EQ(verdict.max_safety, 40.0 / 15);
-  const std::string bar = "bar.obj --fix x-low --load x-high:100N:-y --material steel";
-  const nlohmann::json made = this->answer(bar);
+  const std::string bracket =
+      SPRUNG_SOURCE_DIR "/assets/models/bracket.stl --bricks 40 --fix x-low --load x-high:50N:-y --material steel";
+  const nlohmann::json made = this->answer(bracket);
   const auto range = made.at("safety_range").get<std::array<double, 2>>();
   ASSERT_LT(range[0], made.at("safety").get<double>());
   const std::string between = fmt::format("{}", (range[0] + made.at("safety").get<double>()) / 2);
-  const ProgramRun close = run(bar + " --safety " + between);
+  const ProgramRun close = run(bracket + " --safety " + between);
   EXPECT_EQ(close.exit_code, 0);
   EXPECT_NE(close.out.find("kept, but within the error: more --bricks decide"), std::string::npos) << close.out;
   EXPECT_NE(close.out.find(") against the yield strength"), std::string::npos) << close.out;
