@@ -315,5 +315,49 @@ TEST_F(SceneFacts, WallThrowsABallBack) {
   EXPECT_LT(furthest, film.middle(0, 1).x() - 0.05);  // back to where it came from, and further
 }
 
+TEST_F(SceneFacts, HouseOfCardsStands) {
+  const FilmFacts film("contact/cards", {{"duration", "0.9"}});
+  film.expect_sound();
+  ASSERT_EQ(film.bodies(), 14U);
+  for (std::size_t card = 0; card < film.bodies(); ++card) {
+    EXPECT_LT((film.middle(film.last(), card) - film.middle(film.frame_at(0.5), card)).norm(), 0.01 * 0.18) << card;
+    EXPECT_LT((film.middle(film.last(), card) - film.middle(0, card)).norm(), 0.04 * 0.18) << card;
+  }
+}
+
+TEST_F(SceneFacts, BlockIsSqueezedOutOfABoxWhole) {
+  const FilmFacts film("contact/squeeze", {});
+  film.expect_sound();
+  constexpr double kMouth = 0.019;  // m, its end
+  EXPECT_LT(film.skin(0).col(0).maxCoeff(), kMouth);
+  EXPECT_GT(film.skin(film.last()).col(0).minCoeff(), kMouth);
+  const auto extent = [&](int frame) -> Vec3 {
+    return film.skin(frame).colwise().maxCoeff() - film.skin(frame).colwise().minCoeff();
+  };
+  EXPECT_LT((extent(film.last()) - extent(0)).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST_F(SceneFacts, OctopusDropsThroughAFunnel) {
+  const FilmFacts film("contact/funnel", {{"duration", "0.6"}});
+  film.expect_sound();
+  EXPECT_GT(film.middle(0).y(), 0.3);
+  EXPECT_LT(film.middle(film.last()).y(), 0.08);
+  EXPECT_LT(film.skin(film.last()).col(1).maxCoeff(), 0.174);  // the lower end of the funnel
+}
+
+TEST_F(SceneFacts, PouredBodiesStayInTheBowl) {
+  const FilmFacts film("contact/hundred", {}, [](Film& scene) {
+    if (std::getenv("SPRUNG_FULL_SCENES") != nullptr) return;
+    for (SceneBody& body : scene.bodies) body.copies->count = {3, 1, 3};
+  });
+  film.expect_sound();
+  EXPECT_LT(film.travel_speed(film.last()), 0.02);
+  for (std::size_t body = 0; body < film.bodies(); ++body) {
+    const Vec3 middle = film.middle(film.last(), body);
+    EXPECT_LT(std::hypot(middle.x(), middle.z()), 0.165) << body;
+    EXPECT_GT(middle.y(), 0.005) << body;
+  }
+}
+
 }  // namespace
 }  // namespace sprung
