@@ -59,20 +59,20 @@ class DottedLines {
   std::vector<Vec3> points_;
 };
 
-/// Where the exact stress is unbounded: inner corners, and supports, which end somewhere.
+/// Where the exact stress is unbounded: inner corners, and the ends of supports.
 class SingularLines {
  public:
   SingularLines(const LoadPart& part, const PartSolution& solution);
   /// The a of stress ~ size^-a from which on a peak at `position` (m, in the frame of LoadedBody) is singular; infinite
   /// if none of the lines is within `reach` (m).
   [[nodiscard]] double min_exponent(const Vec3& position, double reach) const {
-    if (corners_.is_near(position, reach)) return kSingularAtCorner;
-    return others_.is_near(position, reach) ? kSingular : std::numeric_limits<double>::infinity();
+    if (certain_.is_near(position, reach)) return kSurelySingular;
+    return possible_.is_near(position, reach) ? kSingular : std::numeric_limits<double>::infinity();
   }
 
  private:
-  DottedLines corners_;  // inner edges that turn by kCorner
-  DottedLines others_;   // blunter ones, which may stand for a rounding, and supports
+  DottedLines certain_;   // inner edges that turn by kCorner, and clamped faces
+  DottedLines possible_;  // blunter edges, which may stand for a rounding, and faces that are held along some axes
 };
 
 struct FoundPeak {
@@ -92,14 +92,17 @@ SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution)
       }
     }
   };
-  add_edges(kCorner, corners_);
-  add_edges(kSharpEdge, others_);
+  add_edges(kCorner, certain_);
+  add_edges(kSharpEdge, possible_);
   const Simulation& simulation = solution.simulation;
   for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
     const Body& body = simulation.world.bodies[row];
     for (const PinnedSkin& skin : simulation.origins[row].pinned_skins) {
+      const Pin& pin = solution.scene.bodies[simulation.origins[row].body].pins[skin.pin];
+      const bool is_clamped = !pin.normal && pin.axes.fixed == Axes{}.fixed;
+      DottedLines& lines = is_clamped ? certain_ : possible_;
       const Points pinned = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
-      for (const auto& point : pinned.rowwise()) others_.add(point.transpose());
+      for (const auto& point : pinned.rowwise()) lines.add(point.transpose());
     }
   }
 }

@@ -70,10 +70,10 @@ struct PartAnswer {
 
 /// The results of solutions on successively coarser grids, finest first. The error of a quantity is bounded by the grid
 /// convergence index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng.
-/// 116 (1994) 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp re-entrant edge
-/// or a support, they grow like size^-kSingular or faster from the coarsest grid to the finest, at an edge that turns
-/// by 50 degrees, where that only begins to show, like size^-kSingularAtCorner (half of either next to others);
-/// stresses within three of its bricks of a singularity are left out.
+/// 116 (1994) 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp re-entrant
+/// edge or a support, they grow like size^-kSingular or faster from the coarsest grid to the finest; at an edge that
+/// turns by 50 degrees or a face held along all axes, where that only begins to show, like size^-kSurelySingular (half
+/// of either next to others). Stresses within three of its bricks of a singularity are left out.
 [[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
                                    const LoadCase& loads, const PartBricks& bricks);
 
@@ -82,6 +82,6 @@ struct PartAnswer {
                                                   const std::vector<PartSolution>& solutions, const LoadPart& part);
 
 inline constexpr double kSingular = 0.2;
-inline constexpr double kSingularAtCorner = 0.03;
+inline constexpr double kSurelySingular = 0.03;
 
 }  // namespace sprung
