@@ -1,5 +1,6 @@
 #include "core/contact/pairs/near_features.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <optional>
 
 #include "core/contact/search/obstacle_surface.h"
+#include "core/error.h"
 
 namespace sprung {
 namespace {
@@ -18,6 +20,7 @@ constexpr double kMinStepsAhead = 2;  // ... this one and the next, whose contac
 constexpr double kSlack = 0.004;      // bricks that nodes may deviate from where their velocities take them ...
 constexpr double kMoreSlack = 4;      // times as far, each time that a step is checked again ...
 constexpr int kMaxGrowths = 3;        // ... so often: with more, all of a body would be near itself
+constexpr double kMaxMove = 2;        // bricks in a step, against the mean of the body: with more, likewise
 
 /// The bricks of bodies `a` and `b` that are glued together, each pair once.
 FeaturePairs::Joints joints_between(const std::vector<GluedPoint>& glue, std::size_t a, std::size_t b) {
@@ -161,9 +164,21 @@ double NearFeatures::deviation(double dt) const {
   return furthest / brick_;
 }
 
+void NearFeatures::throw_runaway(const World& world, std::size_t row, double way) const {
+  const auto found =
+      std::find_if(world.bodies.begin(), world.bodies.end(), [&](const SoftBody& one) { return &one == group_[row]; });
+  throw Diverged(
+      std::size_t(found - world.bodies.begin()),
+      fmt::format("a part moves by {:.2g} bricks against the rest of its body in a time step", way / brick_));
+}
+
 void NearFeatures::predict(const World& world, double dt, double slack) {
   double fastest = 0;
-  for (const auto& tree : surfaces_.trees) fastest = std::max(fastest, tree->fastest());
+  for (std::size_t row = 0; row < surfaces_.trees.size(); ++row) {
+    const double speed = surfaces_.trees[row]->fastest();
+    if (row < group_.size() && !(speed * dt <= kMaxMove * brick_)) throw_runaway(world, row, speed * dt);
+    fastest = std::max(fastest, speed);
+  }
   const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));
   horizon_ = dt * std::clamp(steps, kMinStepsAhead, kMaxStepsAhead);
   slack_ = slack;

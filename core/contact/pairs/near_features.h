@@ -93,8 +93,11 @@ class NearFeatures {
   void arrange_rounds(const std::vector<std::array<std::size_t, 2>>& surfaces);
   /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
   [[nodiscard]] double deviation(double dt) const;
-  /// `slack`: how far nodes may deviate from the prediction, bricks.
+  /// `slack`: how far nodes may deviate from the prediction, bricks. Throws Diverged if a node moves so far in a step
+  /// of dt that everything would be near everything.
   void predict(const World& world, double dt, double slack);
+  /// `way`: m, in a step, of a node of that body of the group.
+  [[noreturn]] void throw_runaway(const World& world, std::size_t row, double way) const;
   void measure(const World& world);
 
   Group group_;

@@ -44,8 +44,9 @@ struct GroupSteps {
 };
 
 /// Moves each group of bodies by its own steps, all at once: only those of one group touch each other. Obstacles keep
-/// the world's poses: the caller must move them. Deterministic for any number of threads. Throws Error(kDiverged)
-/// naming time `time` and the body if a position is no longer finite. `states`: of these groups, in this frame.
+/// the world's poses: the caller must move them. Deterministic for any number of threads. Throws Diverged with the body
+/// if a position is no longer finite, or a node moves by bricks against its body in a step. `states`: of these groups,
+/// in this frame.
 void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time, const ContactStates& states);
 
 /// The same with `steps` steps of `dt` seconds for all, and the search for contacts started afresh; moves the obstacles

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "core/error.h"
 #include "tests/support/touching.h"
 
@@ -72,6 +73,24 @@ TEST(Divergence, IsTold) {
     FAIL() << "it came through";
   } catch (const Diverged& error) {
     EXPECT_NE(std::string(error.what()).find("sound in its material moves at 10 m/s"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// Contact would otherwise list everything that may meet: all pairs of features, more than memory holds.
+TEST(Divergence, EndsAStepInWhichANodeWouldPassItsWholeBody) {
+  constexpr double kStep = 1e-4;  // s
+  World world = world_of_box();
+  world.bodies[0].contact.with_itself = true;
+  world.bodies[0].velocities(0, 1) = kBrick / kStep;
+  advance(world, Scheme::kSymplecticEuler, kStep, 1, 0);
+  world.bodies[0].velocities(0, 1) = 3 * kBrick / kStep;
+  try {
+    advance(world, Scheme::kSymplecticEuler, kStep, 1, 0);
+    FAIL() << "it came through";
+  } catch (const Diverged& error) {
+    EXPECT_EQ(error.body(), 0U);
+    EXPECT_NE(std::string(error.what()).find("bricks against the rest of its body in a time step"), std::string::npos)
         << error.what();
   }
 }
