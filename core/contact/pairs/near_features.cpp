@@ -167,17 +167,18 @@ double NearFeatures::deviation(double dt) const {
 void NearFeatures::throw_runaway(const World& world, std::size_t row, double way) const {
   const auto found =
       std::find_if(world.bodies.begin(), world.bodies.end(), [&](const SoftBody& one) { return &one == group_[row]; });
-  throw Diverged(
-      std::size_t(found - world.bodies.begin()),
-      fmt::format("a part moves by {:.2g} bricks against the rest of its body in a time step", way / brick_));
+  const std::size_t number = std::size_t(found - world.bodies.begin());
+  throw Diverged(number, fmt::format("a part of body {} moves by {:.2g} bricks against the rest in a time step",
+                                     number + 1, way / brick_));
 }
 
 void NearFeatures::predict(const World& world, double dt, double slack) {
   double fastest = 0;
   for (std::size_t row = 0; row < surfaces_.trees.size(); ++row) {
     const double speed = surfaces_.trees[row]->fastest();
-    if (row < group_.size() && !(speed * dt <= kMaxMove * brick_)) throw_runaway(world, row, speed * dt);
     fastest = std::max(fastest, speed);
+    if (row >= group_.size() || pairs_.empty()) continue;
+    if (!(speed * dt <= kMaxMove * brick_)) throw_runaway(world, row, speed * dt);  // nor if it is not finite
   }
   const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));
   horizon_ = dt * std::clamp(steps, kMinStepsAhead, kMaxStepsAhead);

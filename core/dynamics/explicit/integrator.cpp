@@ -231,8 +231,13 @@ void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, do
     stepper.finish();
   };
   // A thread that waits within one group's steps must not begin another group's: the first would stand still.
-  tbb::parallel_for(std::size_t{0}, groups.size(),
-                    [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
+  try {
+    tbb::parallel_for(std::size_t{0}, groups.size(),
+                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
+  } catch (const Diverged&) {
+    check_finite(world, time);
+    throw;
+  }
   if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * double(groups[0].steps.count));
 }
 

@@ -252,7 +252,7 @@ TEST_F(Load, WritesPicturesAndTables) {
 }
 
 TEST_F(Load, LimitsDecideTheExitCode) {
-  const std::string bar = "bar.obj --brick-size 2mm --fix x-low --load x-high:100N:-y --material steel";
+  const std::string bar = "bar.obj --fix x-low --load x-high:100N:-y --material steel";
   EXPECT_EQ(run(bar + " --deflection-limit 1mm --safety 1.1").exit_code, 0);
   const ProgramRun bends = run(bar + " --deflection-limit 0.1mm");
   EXPECT_EQ(bends.exit_code, 1);

@@ -35,6 +35,7 @@ TEST(StableStep, StaysStableAndGrowsBeyondIt) {
     for (const double safety : {0.99, 1.6}) {
       std::mt19937 random(2);
       World world = world_of(box_body({3, 3, 3}, 0.01, model, 0.3));
+      world.bodies[0].contact.with_itself = false;
       shake(world.bodies[0], 1e-6, random);
       const double before = elastic_energy(world.bodies[0]);
       advance(world, Scheme::kSymplecticEuler, stable_step(world, safety), model == Model::kTensile ? 60 : 12, 0);
