@@ -14,8 +14,8 @@ using StressTensors = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 /// stress of a brick is evaluated at its centre and extrapolated to its corners with the slopes of a linear fit through
 /// its neighbours of the same material, from its own value or, as far as it is cut, from that of the fit; nodes average
 /// their bricks. Without neighbours, where a part is one brick thick, the bending and twist of the brick itself are
-/// used. Linear stress fields are exact, in full bricks. At the interface of two materials it is the mean of both sides.
-/// Deterministic.
+/// used. Linear stress fields are exact, in full bricks. At the interface of two materials it is the mean of both
+/// sides. Deterministic.
 [[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions,
                                            StrainMeasure measure = StrainMeasure::kFinite);
 /// At some nodes only, a row for each.
