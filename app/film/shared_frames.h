@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/types.h"
+#include "core/skin/skin.h"
 
 namespace sprung {
 
