@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <climits>
@@ -14,6 +13,7 @@
 #include "tests/external/external_mesh.h"
 #include "tests/soak/mesh_corpus.h"
 #include "tests/soak/mutation.h"
+#include "tests/soak/trials.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
@@ -27,12 +27,8 @@ constexpr std::uintmax_t kLargestMesh = 100'000;                   // bytes of a
 constexpr long kMaxKilobytes = kSanitized ? LONG_MAX : 1'000'000;  // readers have no limit of memory under ASan
 constexpr double kMaxSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
 
-struct Options {
-  std::uint32_t seed = 1;
-  std::uint32_t first = 0;
-  std::uint32_t mutations = 1000;
+struct Options : Trials {
   std::string corpus;
-  bool verbose = false;
 };
 
 struct Sample {
@@ -90,11 +86,11 @@ class Soak {
 
   /// How many mutations failed.
   int run() {
-    for (std::uint32_t i = options_.first; i < options_.first + options_.mutations; ++i) read_one(i);
-    fmt::print("seed {}: {} mutations of {} files:", options_.seed, options_.mutations, std::ssize(samples_));
+    for (std::uint32_t i = options_.first; i < options_.first + options_.count; ++i) read_one(i);
+    fmt::print("seed {}: {} mutations of {} files:", options_.seed, options_.count, std::ssize(samples_));
     for (const auto& [outcome, count] : outcomes_) fmt::print(" {} {},", outcome, count);
     fmt::print(" {} failed; {:.2f} ms a file, the longest {:.2f} s; most memory {} MB, of the readers {} MB\n", failed_,
-               1000 * seconds_ / std::max(1U, options_.mutations), longest_, peak_kilobytes(RUSAGE_SELF) / 1000,
+               1000 * seconds_ / std::max(1U, options_.count), longest_, peak_kilobytes(RUSAGE_SELF) / 1000,
                peak_kilobytes(RUSAGE_CHILDREN) / 1000);
     return failed_;
   }
@@ -141,14 +137,12 @@ class Soak {
 
 int main(int argc, char** argv) {
   sprung::test::Options options;
+  options.count = 1000;
   CLI::App app(
       "Reads randomly damaged mesh files and fails where one crashes the program, takes over 20 s or 1 GB, or is "
       "refused by anything but one clear line.");
-  app.add_option("--mutations", options.mutations, "how many");
-  app.add_option("--seed", options.seed, "of the series");
-  app.add_option("--first", options.first, "number of the first mutation: to see one again, with --mutations 1");
+  options.add_options(app, "mutation");
   app.add_option("--write-corpus", options.corpus, "only write the undamaged files into this folder");
-  app.add_flag("--verbose", options.verbose, "a line for every mutation, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
   if (options.corpus.empty()) return sprung::test::Soak(options).run() == 0 ? 0 : 1;
   std::filesystem::create_directories(options.corpus);

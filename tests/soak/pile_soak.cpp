@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include "core/error.h"
 #include "core/simulation/simulate.h"
 #include "tests/soak/dice.h"
+#include "tests/soak/trials.h"
 
 namespace sprung::test {
 namespace {
@@ -19,12 +18,8 @@ constexpr double kMaxCrossing = 1e-3;  // depth over the size of the largest bod
 constexpr double kDuration = 1.5;      // s
 constexpr double kFps = 24;
 
-struct Options {
-  std::uint32_t seed = 1;
-  std::uint32_t first = 0;
-  std::uint32_t piles = 20;
+struct Options : Trials {
   std::filesystem::path scenes{};
-  bool verbose = false;
 };
 
 struct Pile {
@@ -155,41 +150,30 @@ void write_scene(const Pile& pile, const std::filesystem::path& file) {
   std::ofstream(file) << print_scene(film);
 }
 
-/// How many piles failed.
-int soak(const Options& options) {
-  int failed = 0;
-  for (std::uint32_t index = options.first; index < options.first + options.piles; ++index) {
-    const auto start = std::chrono::steady_clock::now();
-    const Pile pile = random_pile(options.seed, index);
-    const Outcome outcome = run(pile);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    failed += outcome.fault.empty() ? 0 : 1;
-    if (!options.scenes.empty() && !outcome.fault.empty()) {
-      write_scene(pile, options.scenes / fmt::format("pile_{}_{}.toml", options.seed, index));
-    }
-    if (!options.verbose && outcome.fault.empty()) continue;
-    fmt::print("seed {} pile {}: {}: {}; deepest {:.2g} %, {:.2g} M brick-steps, {:.1f} s\n", options.seed, index,
-               pile.description, outcome.fault.empty() ? "well" : outcome.fault, 100 * outcome.deepest,
-               outcome.brick_steps * 1e-6, seconds);
-    std::fflush(stdout);
+TrialLine soak(const Options& options, std::uint32_t index) {
+  const Pile pile = random_pile(options.seed, index);
+  const Outcome outcome = run(pile);
+  const bool has_failed = !outcome.fault.empty();
+  if (has_failed && !options.scenes.empty()) {
+    write_scene(pile, options.scenes / fmt::format("pile_{}_{}.toml", options.seed, index));
   }
-  fmt::print("seed {}: {} of {} piles failed\n", options.seed, failed, options.piles);
-  return failed;
+  return {has_failed,
+          fmt::format("{}: {}; deepest {:.2g} %, {:.2g} M brick-steps", pile.description,
+                      has_failed ? outcome.fault : "well", 100 * outcome.deepest, outcome.brick_steps * 1e-6)};
 }
 
 }  // namespace
 }  // namespace sprung::test
 
 int main(int argc, char** argv) {
-  sprung::test::Options options;
+  using namespace sprung::test;
+  Options options;
+  options.count = 20;
   CLI::App app(
       "Piles up random bodies and fails where the motion diverges, a brick ends inside out or drawn skins cross by "
       "more than 0.1 % of the size.");
-  app.add_option("--piles", options.piles, "how many");
-  app.add_option("--seed", options.seed, "of the series");
-  app.add_option("--first", options.first, "number of the first pile: to see one again, with --piles 1");
+  options.add_options(app, "pile");
   app.add_option("--scenes", options.scenes, "folder to write the scenes of those that fail into");
-  app.add_flag("--verbose", options.verbose, "a line for every pile, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
-  return sprung::test::soak(options) == 0 ? 0 : 1;
+  return run_trials(options, "pile", [&](std::uint32_t index) { return soak(options, index); }) == 0 ? 0 : 1;
 }

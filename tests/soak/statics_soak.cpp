@@ -3,7 +3,6 @@
 // neither, and those that took over 20 times as long as others of their size.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -17,6 +16,7 @@
 #include "core/simulation/simulation.h"
 #include "tests/external/external_mesh.h"
 #include "tests/soak/dice.h"
+#include "tests/soak/trials.h"
 #include "tests/support/meshes.h"
 
 namespace sprung::test {
@@ -204,18 +204,13 @@ Result run(const Scene& scene) {
   return result;
 }
 
-struct Options {
-  std::uint32_t seed = 1;
-  std::uint32_t first = 0;
-  std::uint32_t cases = 100;
-  bool verbose = false;
-};
+using Options = Trials;
 
 int soak(const Options& options) {
   int failed = 0;
   int refused = 0;
   std::vector<std::pair<Result, std::string>> done;
-  for (std::uint32_t index = options.first; index < options.first + options.cases; ++index) {
+  for (std::uint32_t index = options.first; index < options.first + options.count; ++index) {
     const Case one = random_case(options.seed, index);
     const auto start = Clock::now();
     const Result result = run(one.scene);
@@ -242,7 +237,7 @@ int soak(const Options& options) {
     fmt::print("slow, {:.0f} times the median of its size: {}\n", done[i].first.seconds / median, done[i].second);
   }
   fmt::print("seed {}: {} of {} cases failed; {} have no equilibrium, as the program says\n", options.seed, failed,
-             options.cases, refused);
+             options.count, refused);
   return failed;
 }
 
@@ -251,11 +246,9 @@ int soak(const Options& options) {
 
 int main(int argc, char** argv) {
   sprung::test::Options options;
+  options.count = 100;
   CLI::App app("Finds the equilibria of random parts, and fails where a pin does not hold the load.");
-  app.add_option("--cases", options.cases, "how many");
-  app.add_option("--seed", options.seed, "of the series");
-  app.add_option("--first", options.first, "number of the first case: to see one again, with --cases 1");
-  app.add_flag("--verbose", options.verbose, "a line for every case, not only for those that fail");
+  options.add_options(app, "case");
   CLI11_PARSE(app, argc, argv);
   return sprung::test::soak(options) == 0 ? 0 : 1;
 }
