@@ -10,6 +10,8 @@
 
 #include "core/error.h"
 #include "core/mesh/repair/faces.h"
+#include "core/simulation/drivers.h"
+#include "core/simulation/skin_supports.h"
 
 namespace sprung {
 namespace {
@@ -186,9 +188,13 @@ std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, con
   const Simulation& simulation = solution.simulation;
   for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
     const std::vector<Pin>& pins = solution.scene.bodies[simulation.origins[row].body].pins;
-    for (const PinnedSkin& skin : simulation.origins[row].pinned_skins) {
-      const SkinReaction reaction = reaction_of(skin, pins[skin.pin], solution.scene, simulation.world.bodies[row],
-                                                time_of(solution.scene, 1), solution.is_linear);
+    const SoftBody& body = simulation.world.bodies[row];
+    const std::vector<PinnedSkin>& skins = simulation.origins[row].pinned_skins;
+    for (std::size_t k = 0; k < skins.size(); ++k) {
+      const PinnedSkin& skin = skins[k];
+      const Vec3 centre =
+          centre_of(skin.centre, pins[skin.pin], solution.scene, time_of(solution.scene, 1), solution.is_linear);
+      const SkinReaction reaction = reaction_of(skin, body.foundations[k], centre, body, solution.is_linear);
       PartAnswer::Reaction& sum = reactions[skin.pin];
       const Vec3 force = here * reaction.force;
       const Vec3 about = part_from_world(solution, part, skin.centre.transpose()).row(0);  // of the pin

@@ -21,12 +21,6 @@ const SoftBody& only_body(const PartSolution& solution) {
               "--modes and --buckling are of one body, and this part has several solids that are not joined");
 }
 
-Supports supports_at_rest(const PartSolution& solution, const SoftBody& body) {
-  Supports supports = supports_of(body);
-  add_skin_supports(solution.scene, solution.simulation.origins[0], body, 0, true, supports);
-  return supports;
-}
-
 /// The coarser grids, the finer one first; the only one if there is no coarser one.
 std::vector<const PartSolution*> coarser(const std::vector<PartSolution>& solutions) {
   std::vector<const PartSolution*> some;
@@ -51,7 +45,7 @@ std::vector<Estimate> frequencies_of(const std::vector<PartSolution>& solutions,
   for (const PartSolution* grid : grids) {
     Body body = only_body(*grid);
     body.positions = body.rest_positions;
-    const Supports supports = supports_at_rest(*grid, only_body(*grid));
+    const Supports supports = supports_of(only_body(*grid));
     found.push_back(natural_modes(body, supports, count, [&] { observer.check_interrupt(); }).frequencies);
     progress.update(double(found.size()));
   }
@@ -75,7 +69,7 @@ std::optional<Estimate> buckling_factor_of(const std::vector<PartSolution>& solu
     }
     const StressTensors stresses = recover_stress(body, body.positions, StrainMeasure::kSmall);
     const BucklingModes modes =
-        find_buckling(body, supports_at_rest(*grid, body), stresses, 1, [&] { observer.check_interrupt(); });
+        find_buckling(body, supports_of(body), stresses, 1, [&] { observer.check_interrupt(); });
     if (modes.factors.size() == 0) return std::nullopt;
     factors.push_back(modes.factors[0]);
     progress.update(double(factors.size()));

@@ -159,10 +159,8 @@ void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
     int newton_steps = 0;
     const Loads loads = loads_and_weight(scene_, simulation_, row, forced_wholes(scene_, simulation_.origins)[row]);
     const Points movements = body.positions - body.rest_positions;
-    Supports supports = supports_of(body);
-    add_skin_supports(scene_, simulation_.origins[row], body, 0, linear, supports);
-    static_cast<void>(
-        sprung::settle(body, supports, loads, movements, linear, *make_default_solver(), newton_steps, between));
+    static_cast<void>(sprung::settle(body, supports_of(body), loads, movements, linear, *make_default_solver(),
+                                     newton_steps, between));
     body.velocities.setZero();
   });
 }

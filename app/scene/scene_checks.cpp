@@ -93,14 +93,6 @@ void check_rest(const Film& film, const Report& report) {
     report({"obstacle", 0}, fmt::format("only a motion {} can have an [[obstacle]]", kMotions));
 }
 
-void check_motion(const Film& film, const Report& report) {
-  for (int i = 0; i < isize(film.bodies); ++i) {
-    const std::vector<Pin>& pins = film.bodies[i].pins;
-    if (std::none_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.on_surface; })) continue;
-    report({"body", i}, "body.pin: on_surface is for scheme static, linear and modes; in a motion pins hold nodes");
-  }
-}
-
 }  // namespace
 
 void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,
@@ -112,11 +104,7 @@ void check_table(const Film& film, const std::string&, const Report& report) {
   check_probes(film, report);
   check_glue(film, report);
   check_times(film.gravity_keyframes, "gravity_keyframes", "scene", report);
-  if (is_motion(film)) {
-    check_motion(film, report);
-  } else {
-    check_rest(film, report);
-  }
+  if (!is_motion(film)) check_rest(film, report);
 }
 
 /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.

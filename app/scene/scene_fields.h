@@ -404,8 +404,7 @@ void fields(auto& visit, Is<Pin> auto& pin) {
   selection_fields(visit, pin);
   visit({"name", "for probes"}, pin.name);
   visit({"axes", "the directions that are held: \"xyz\", \"x\", \"yz\", and so on"}, pin.axes);
-  visit({"on_surface", "true: holds the part's skin and not its nodes, wherever the bricks lie; only at rest"},
-        pin.on_surface);
+  visit({"on_surface", "true: holds the part's skin and not its nodes, wherever the bricks lie"}, pin.on_surface);
   visit({"normal", "with on_surface, in place of axes: held along this direction only, and free to slide across it"},
         pin.normal);
   visit({"translate", "translation by the end of the film", Dimension::kLength}, pin.translate);

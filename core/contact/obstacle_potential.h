@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/contact/point_stiffness.h"
 #include "core/contact/search/contact_surface.h"
 #include "core/types.h"
+#include "core/world/point_stiffness.h"
 
 namespace sprung {
 

@@ -4,7 +4,7 @@
 
 #include "core/contact/narrow_phase.h"
 #include "core/contact/obstacle_potential.h"
-#include "core/contact/point_stiffness.h"
+#include "core/world/point_stiffness.h"
 #include "core/world/world.h"
 
 namespace sprung {

@@ -15,8 +15,10 @@ constexpr double kMaxGain = 0.3;  // of kinetic and strain energy, that a frame'
 /// Whether something that may add energy moves it.
 bool is_driven(const SoftBody& body) {
   if (!body.loads.empty()) return true;
-  return std::any_of(body.pinned.begin(), body.pinned.end(),
-                     [](const KinematicNode& pinned) { return !pinned.velocity.isZero(); });
+  const auto moves = [](const auto& held) { return !held.velocity.isZero(); };
+  if (std::any_of(body.pinned.begin(), body.pinned.end(), moves)) return true;
+  const std::vector<SpringSupport> supports = body.supports_after(0);
+  return std::any_of(supports.begin(), supports.end(), moves);
 }
 
 Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> bodies) {
@@ -49,15 +51,25 @@ Energy energy_of(const Body& body, const Vec3& gravity) {
           .potential = -body.masses.dot(body.positions * gravity)};
 }
 
+namespace {
+
+Energy energy_with_foundations(const SoftBody& body, const Vec3& gravity) {
+  Energy energy = energy_of(body, gravity);
+  energy.elastic += support_energy(body.supports_after(0), body, body.positions - body.rest_positions);
+  return energy;
+}
+
+}  // namespace
+
 std::vector<Energy> energies_of(const World& world) {
   std::vector<Energy> all;
-  for (const SoftBody& body : world.bodies) all.push_back(energy_of(body, world.gravity));
+  for (const SoftBody& body : world.bodies) all.push_back(energy_with_foundations(body, world.gravity));
   return all;
 }
 
 std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> bodies) {
   std::vector<Energy> some(world.bodies.size());
-  for (const std::size_t i : bodies) some[i] = energy_of(world.bodies[i], world.gravity);
+  for (const std::size_t i : bodies) some[i] = energy_with_foundations(world.bodies[i], world.gravity);
   return some;
 }
 

@@ -187,6 +187,7 @@ void BodyBuilder::put(FilledBody filled, const Pose& pose, int copy) {
   const auto move_centre = [&](auto& pinned) { pinned.centre = pose.rotation * pinned.centre + pose.translation; };
   std::for_each(origin.pins.begin(), origin.pins.end(), move_centre);
   std::for_each(origin.pinned_skins.begin(), origin.pinned_skins.end(), move_centre);
+  set_foundations(scene_, origin, 0, false, body);
   body.drawn.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
   origin.copy = copy;
   simulation_.world.bodies.push_back(std::move(body));

@@ -140,14 +140,24 @@ SceneDriver::SceneDriver(const Scene& scene, Simulation& simulation)
       simulation_(simulation),
       loads_(scene, simulation),
       pins_(simulation.world.bodies.size()),
+      skin_pins_(pins_.size()),
       moments_(loads_.moments()) {
   loads_.aim(0, 0);
   for (std::size_t body = 0; body < pins_.size(); ++body) {
     const Origin& origin = simulation.origins[body];
-    for (const PinnedNodes& pinned : origin.pins) {
+    const auto motion_of = [&](const auto& pinned) {
       const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
-      pins_[body].push_back({.source = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
-      add_moments(pin, pins_[body].back().movement, moments_);
+      PinMotion motion{.source = &pin, .movement = movement_of(pin, scene)};
+      add_moments(pin, motion.movement, moments_);
+      return motion;
+    };
+    for (const PinnedNodes& pinned : origin.pins) {
+      pins_[body].push_back({.motion = motion_of(pinned), .pinned = &pinned});
+    }
+    for (const PinnedSkin& skin : origin.pinned_skins) {
+      PinMotion motion = motion_of(skin);
+      std::vector<SpringSupport> springs = springs_of(skin, *motion.source, simulation.world.bodies[body]);
+      skin_pins_[body].push_back({.motion = std::move(motion), .skin = &skin, .springs = std::move(springs)});
     }
   }
   for (const StageObstacle& obstacle : simulation.obstacles) {
@@ -177,54 +187,94 @@ void SceneDriver::aim(double begin, double end) {
   for (std::size_t i = 0; i < simulation_.obstacles.size(); ++i) {
     simulation_.world.obstacles[i] = obstacle_between(simulation_.obstacles[i], scene_.obstacles[i], begin, end);
   }
-  for (std::size_t i = 0; i < pins_.size(); ++i) {
-    if (pins_[i].empty()) continue;
-    SoftBody& body = simulation_.world.bodies[i];
-    std::map<int, KinematicNode> pinned;
-    for (PinMotion& pin : pins_[i]) {
-      if (holds(*pin.source, begin)) {
-        carry(pin, body, begin, end, pinned);
-      } else {
-        pin.capture.reset();
-      }
+  for (std::size_t row = 0; row < pins_.size(); ++row) {
+    drive_nodes(row, begin, end);
+    drive_skins(row, begin, end);
+  }
+}
+
+void SceneDriver::drive_nodes(std::size_t row, double begin, double end) {
+  if (pins_[row].empty()) return;
+  SoftBody& body = simulation_.world.bodies[row];
+  std::map<int, KinematicNode> pinned;
+  for (NodePin& pin : pins_[row]) {
+    if (holds(*pin.motion.source, begin)) {
+      carry(pin, body, begin, end, pinned);
+    } else {
+      pin.motion.capture.reset();
     }
-    body.pinned.clear();
-    for (const auto& [node, entry] : pinned) body.pinned.push_back(entry);
+  }
+  body.pinned.clear();
+  for (const auto& [node, entry] : pinned) body.pinned.push_back(entry);
+}
+
+void SceneDriver::drive_skins(std::size_t row, double begin, double end) {
+  SoftBody& body = simulation_.world.bodies[row];
+  body.foundations.resize(skin_pins_[row].size());
+  for (std::size_t i = 0; i < skin_pins_[row].size(); ++i) {
+    auto& [motion, skin, springs_at_rest] = skin_pins_[row][i];
+    std::vector<SpringSupport>& springs = body.foundations[i];
+    springs.clear();
+    if (!holds(*motion.source, begin)) {
+      motion.capture.reset();
+      continue;
+    }
+    if (!motion.capture) {
+      motion.capture = Capture{
+          .time = begin, .centre = skin->centre, .positions = deform_points(body.grid, skin->points, body.positions)};
+      if (begin > kMoment)
+        motion.capture->centre = motion.capture->positions.transpose() * skin->areas / skin->areas.sum();
+    }
+    springs = springs_at_rest;
+    const Placement first = between(motion.movement, motion.capture->time, begin);
+    const Placement last = between(motion.movement, motion.capture->time, end);
+    const Points rest = deform_points(body.grid, skin->points, body.rest_positions);
+    for (std::size_t point = 0; point < springs.size(); ++point) {
+      const Vec3 start = motion.capture->positions.row(Eigen::Index(point));
+      const Vec3 arm = start - motion.capture->centre;
+      springs[point].displacement = start + first.way(arm) - rest.row(Eigen::Index(point)).transpose();
+      springs[point].velocity = (last.way(arm) - first.way(arm)) / (end - begin);
+    }
   }
 }
 
 void SceneDriver::serialize(IntegratorState& state) {
-  for (std::vector<PinMotion>& pins : pins_) {
-    for (PinMotion& pin : pins) {
-      bool is_caught = pin.capture.has_value();
-      Capture caught = pin.capture.value_or(Capture{});
-      caught.positions.conservativeResize(pin.pinned->nodes.size(), 3);
-      if (!is_caught) caught.positions.setZero();
-      state.serialize_as_double(is_caught);
-      state.serialize(caught.time);
-      state.serialize(caught.centre);
-      state.serialize(caught.positions);
-      pin.capture = is_caught ? std::optional(caught) : std::nullopt;
-    }
+  const auto serialize_capture = [&](PinMotion& pin, std::size_t points) {
+    bool is_caught = pin.capture.has_value();
+    Capture caught = pin.capture.value_or(Capture{});
+    caught.positions.conservativeResize(Eigen::Index(points), 3);
+    if (!is_caught) caught.positions.setZero();
+    state.serialize_as_double(is_caught);
+    state.serialize(caught.time);
+    state.serialize(caught.centre);
+    state.serialize(caught.positions);
+    pin.capture = is_caught ? std::optional(caught) : std::nullopt;
+  };
+  for (std::vector<NodePin>& pins : pins_) {
+    for (NodePin& pin : pins) serialize_capture(pin.motion, pin.pinned->nodes.size());
+  }
+  for (std::vector<SkinPin>& pins : skin_pins_) {
+    for (SkinPin& pin : pins) serialize_capture(pin.motion, pin.skin->points.brick.size());
   }
 }
 
-void SceneDriver::carry(PinMotion& pin, SoftBody& soft_body, double begin, double end,
+void SceneDriver::carry(NodePin& pin, SoftBody& soft_body, double begin, double end,
                         std::map<int, KinematicNode>& pinned) const {
   const std::vector<int>& nodes = pin.pinned->nodes;
+  std::optional<Capture>& capture = pin.motion.capture;
   Body& body = soft_body;
-  if (!pin.capture) {
-    pin.capture = Capture{.time = begin, .centre = pin.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
-    if (begin > kMoment) pin.capture->centre = pin.capture->positions.colwise().mean();
+  if (!capture) {
+    capture = Capture{.time = begin, .centre = pin.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
+    if (begin > kMoment) capture->centre = capture->positions.colwise().mean();
   }
-  const Placement placement = between(pin.movement, pin.capture->time, end);
+  const Placement placement = between(pin.motion.movement, capture->time, end);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const Vec3 start = pin.capture->positions.row(k);
-    const Vec3 goal = start + placement.way(start - pin.capture->centre);
+    const Vec3 start = capture->positions.row(k);
+    const Vec3 goal = start + placement.way(start - capture->centre);
     const auto [place, is_new] =
         pinned.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
     for (int axis = 0; axis < 3; ++axis) {
-      if (!pin.source->axes.fixed[axis]) continue;
+      if (!pin.motion.source->axes.fixed[axis]) continue;
       place->second.axes[axis] = true;
       place->second.velocity[axis] = (goal[axis] - body.positions(nodes[k], axis)) / (end - begin);
       body.velocities(nodes[k], axis) = place->second.velocity[axis];
@@ -247,6 +297,10 @@ Movement movement_of(const Pin& pin, const Scene& scene) {
   return {
       {{.time = end, .translate = pin.translate.value_or(Vec3::Zero()), .rotate = pin.rotate.value_or(Vec3::Zero())}},
       Interpolation::kLinear};
+}
+
+Vec3 centre_of(const Vec3& at_rest, const Pin& pin, const Scene& scene, double time, bool small) {
+  return small ? at_rest : Vec3(at_rest + movement_of(pin, scene).placement(time).shift);
 }
 
 Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time, bool small) {
@@ -273,6 +327,7 @@ Supports supports_of(const SoftBody& body) {
       if (pinned.axes[axis]) supports.fix(pinned.node, axis);
     }
   }
+  supports.springs = body.supports_after(0);
   return supports;
 }
 

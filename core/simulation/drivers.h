@@ -7,6 +7,7 @@
 #include "core/dynamics/linear/linear_solver.h"
 #include "core/simulation/body_loads.h"
 #include "core/simulation/simulation.h"
+#include "core/simulation/skin_supports.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {
@@ -76,38 +77,53 @@ class SceneDriver {
   void serialize(IntegratorState& state);
 
  private:
-  /// The nodes as a pin caught them.
+  /// The nodes, or the points of the skin, as a pin caught them.
   struct Capture {
     double time = 0;             // s
     Vec3 centre = Vec3::Zero();  // m
-    Points positions;            // m, in the order of the nodes
+    Points positions;            // m, in the order of the nodes or points
   };
-  /// A pin and its nodes of one body.
   struct PinMotion {
     const Pin* source;
-    const PinnedNodes* pinned;
     Movement movement;
     std::optional<Capture> capture{};
   };
+  /// A pin and its nodes of one body.
+  struct NodePin {
+    PinMotion motion;
+    const PinnedNodes* pinned;
+  };
+  /// A pin and its skin of one body.
+  struct SkinPin {
+    PinMotion motion;
+    const PinnedSkin* skin;
+    std::vector<SpringSupport> springs;  // at rest
+  };
 
-  void carry(PinMotion& pin, SoftBody& body, double begin, double end, std::map<int, KinematicNode>& pinned) const;
+  void drive_nodes(std::size_t row, double begin, double end);
+  void drive_skins(std::size_t row, double begin, double end);
+  void carry(NodePin& pin, SoftBody& body, double begin, double end, std::map<int, KinematicNode>& pinned) const;
 
   const Scene& scene_;
   Simulation& simulation_;
   LoadDriver loads_;
-  std::vector<std::vector<PinMotion>> pins_;  // by body
-  std::vector<double> moments_;               // s, ascending: where pieces end
+  std::vector<std::vector<NodePin>> pins_;       // by body
+  std::vector<std::vector<SkinPin>> skin_pins_;  // by body, as its foundations
+  std::vector<double> moments_;                  // s, ascending: where pieces end
 };
 
 /// The movement of a pin: by its keyframes, or linear from the start of the film to its end.
 [[nodiscard]] Movement movement_of(const Pin& pin, const Scene& scene);
+
+/// The centre of rotation (m) of a pin at a time (s) of the film; with `small`, at rest. `at_rest`: m.
+[[nodiscard]] Vec3 centre_of(const Vec3& at_rest, const Pin& pin, const Scene& scene, double time, bool small);
 
 /// The displacement of each node of a body (m x 3, m) by pins that hold from the start, at a time (s) of the film; zero
 /// along free axes. With `small`, to first order: rotated nodes move along tangents.
 [[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time,
                                    bool small);
 
-/// The supports by the pins of a body.
+/// The supports by the pins of a body, and by its foundations.
 [[nodiscard]] Supports supports_of(const SoftBody& body);
 
 }  // namespace sprung

@@ -49,8 +49,8 @@ class Loading {
       loads.forces *= share;
       for (SkinPressure& pressure : loads.pressures) pressure.pressure *= share;
       const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
-      Supports supports = supports_of(body);
-      add_skin_supports(scene_, simulation_.origins[row], body, time, is_linear_, supports);
+      set_foundations(scene_, simulation_.origins[row], time, is_linear_, body);
+      const Supports supports = supports_of(body);
       reactions_of_all.push_back(
           settle(body, supports, loads, movements, is_linear_, *systems_[row], iterations_, between));
     }
@@ -195,9 +195,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   }
   Progress progress(observer, "modes");
   SoftBody& body = simulation.world.bodies[0];
-  Supports supports = supports_of(body);
-  add_skin_supports(scene, simulation.origins[0], body, 0, true, supports);
-  const Modes modes = natural_modes(body, supports, scene.solver.modes, [&] { observer.check_interrupt(); });
+  const Modes modes = natural_modes(body, supports_of(body), scene.solver.modes, [&] { observer.check_interrupt(); });
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, simulation, "mode", cache);

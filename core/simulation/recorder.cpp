@@ -16,7 +16,8 @@
 namespace sprung {
 namespace {
 
-bool is_pin_of(const PinnedNodes& pinned, const SceneBody& body, const std::string& name) {
+template <class Pinned>
+bool is_pin_of(const Pinned& pinned, const SceneBody& body, const std::string& name) {
   return body.pins[pinned.pin].name == name;
 }
 
@@ -139,8 +140,7 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
     for (const PinnedNodes& pinned : simulation_.origins[i].pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
-      const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
-      const Vec3 centre = small ? pinned.centre : Vec3(pinned.centre + shift);
+      const Vec3 centre = centre_of(pinned.centre, pin, scene_, time, small);
       for (const int node : pinned.nodes) {
         ++count;
         sample.position += body.positions.row(node).transpose();
@@ -153,9 +153,11 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
         sample.torque += arm.cross(force);
       }
     }
-    for (const PinnedSkin& skin : simulation_.origins[i].pinned_skins) {
-      if (scene_body.pins[skin.pin].name != probe.pin) continue;
-      const SkinReaction reaction = reaction_of(skin, scene_body.pins[skin.pin], scene_, body, time, small);
+    const std::vector<PinnedSkin>& skins = simulation_.origins[i].pinned_skins;
+    for (std::size_t k = 0; k < skins.size(); ++k) {
+      if (!is_pin_of(skins[k], scene_body, probe.pin)) continue;
+      const Vec3 centre = centre_of(skins[k].centre, scene_body.pins[skins[k].pin], scene_, time, small);
+      const SkinReaction reaction = reaction_of(skins[k], body.foundations[k], centre, body, small);
       count += reaction.area;
       sample.position += reaction.position;
       sample.displacement += reaction.displacement;

@@ -68,8 +68,7 @@ struct Axes {
 /// time from zero at the start to `translate` and `rotate` at the end of the film. Rotation and scaling about the
 /// centre of the part come before the translation. Outside its time interval the pin leaves the nodes free.
 ///
-/// On the surface a pin holds the skin of the part, wherever the bricks lie, by a stiff foundation (PinnedSkin); in
-/// equilibria and vibrations only.
+/// On the surface a pin holds the skin of the part, wherever the bricks lie, by a stiff foundation (PinnedSkin).
 struct Pin : Selection {
   std::string name;
   Axes axes;

@@ -53,26 +53,6 @@ Mat3 pinned_directions(const Pin& pin) {
   return Vec3(pin.axes.fixed[0], pin.axes.fixed[1], pin.axes.fixed[2]).asDiagonal();
 }
 
-std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body,
-                                      double time, bool small) {
-  const Mat3 projection = pinned_directions(pin);
-  const Movement movement = movement_of(pin, scene);
-  const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
-  std::vector<SpringSupport> springs(skin.points.brick.size());
-  for (std::size_t row = 0; row < springs.size(); ++row) {
-    const int brick = skin.points.brick[row];
-    const double young = body.material.young * body.stiffness_scale[brick] / body.grid.fill[brick];
-    const Vec3 position = rest.row(Eigen::Index(row));
-    const Vec3 arm = position - skin.centre;
-    springs[row] = {
-        .spring = {.brick = brick,
-                   .weights = trilinear_weights(skin.points.local.row(Eigen::Index(row))),
-                   .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * projection},
-        .displacement = small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm)};
-  }
-  return springs;
-}
-
 }  // namespace
 
 std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Selector& selector, const SoftBody& body,
@@ -91,34 +71,53 @@ std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Se
   return skins;
 }
 
-void add_skin_supports(const Scene& scene, const Origin& origin, const Body& body, double time, bool small,
-                       Supports& supports) {
-  const std::vector<Pin>& pins = scene.bodies[origin.body].pins;
+std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Pin& pin, const Body& body) {
+  const Mat3 projection = pinned_directions(pin);
+  std::vector<SpringSupport> springs(skin.points.brick.size());
+  for (std::size_t row = 0; row < springs.size(); ++row) {
+    const int brick = skin.points.brick[row];
+    const double young = body.material.young * body.stiffness_scale[brick] / body.grid.fill[brick];
+    springs[row].spring = {.brick = brick,
+                           .weights = trilinear_weights(skin.points.local.row(Eigen::Index(row))),
+                           .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * projection};
+  }
+  return springs;
+}
+
+void set_foundations(const Scene& scene, const Origin& origin, double time, bool small, SoftBody& body) {
+  body.foundations.clear();
   for (const PinnedSkin& skin : origin.pinned_skins) {
-    const std::vector<SpringSupport> springs = springs_of(skin, pins[skin.pin], scene, body, time, small);
-    supports.springs.insert(supports.springs.end(), springs.begin(), springs.end());
+    std::vector<SpringSupport>& springs = body.foundations.emplace_back();
+    const Pin& pin = scene.bodies[origin.body].pins[skin.pin];
+    if (pin.from > 0) continue;
+    springs = springs_of(skin, pin, body);
+    const Movement movement = movement_of(pin, scene);
+    const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
+    for (std::size_t row = 0; row < springs.size(); ++row) {
+      const Vec3 arm = rest.row(Eigen::Index(row)).transpose() - skin.centre;
+      springs[row].displacement =
+          small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm);
+    }
   }
 }
 
-SkinReaction reaction_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body, double time,
-                         bool small) {
+SkinReaction reaction_of(const PinnedSkin& skin, const std::vector<SpringSupport>& springs, const Vec3& centre,
+                         const Body& body, bool small) {
   SkinReaction reaction;
-  const std::vector<SpringSupport> springs = springs_of(skin, pin, scene, body, time, small);
   const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
   const Points displaced = deform_points(body.grid, skin.points, body.positions - body.rest_positions);
-  const Movement movement = movement_of(pin, scene);
-  const Vec3 centre = small ? skin.centre : Vec3(skin.centre + movement.placement(time).shift);
+  for (Eigen::Index row = 0; row < rest.rows(); ++row) {
+    const double area = skin.areas[row];
+    reaction.area += area;
+    reaction.position += area * (rest.row(row) + displaced.row(row)).transpose();
+    reaction.displacement += area * displaced.row(row).transpose();
+  }
   for (std::size_t row = 0; row < springs.size(); ++row) {
     const Vec3 start = rest.row(Eigen::Index(row));
     const Vec3 moved = displaced.row(Eigen::Index(row));
     const Vec3 force = springs[row].spring.stiffness * (springs[row].displacement - moved);
-    const Vec3 position = start + moved;
-    const double area = skin.areas[Eigen::Index(row)];
-    reaction.area += area;
-    reaction.position += area * position;
-    reaction.displacement += area * moved;
     reaction.force += force;
-    reaction.torque += ((small ? start : position) - centre).cross(force);
+    reaction.torque += ((small ? start : Vec3(start + moved)) - centre).cross(force);
   }
   return reaction;
 }

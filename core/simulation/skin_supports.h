@@ -1,5 +1,4 @@
 #pragma once
-#include "core/dynamics/linear/linear_solver.h"
 #include "core/simulation/origin.h"
 #include "core/simulation/selector.h"
 #include "core/world/keyframes.h"
@@ -12,11 +11,14 @@ namespace sprung {
 [[nodiscard]] std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Selector& selector,
                                                         const SoftBody& body, std::size_t solid);
 
-/// Adds the springs that hold pinned skins of a body, moved by their pins from rest to a `time` (s) of the film; with
-/// `small`, to first order. A spring per area is kFoundation times as stiff as the outermost layer of bricks under it,
-/// E / h: it adds the compliance of a hundredth of a brick to a support, and still lets the solvers converge.
-void add_skin_supports(const Scene& scene, const Origin& origin, const Body& body, double time, bool small,
-                       Supports& supports);
+/// The springs that hold a pinned skin of a body at rest. A spring per area is kFoundation times as stiff as the
+/// outermost layer of bricks under it, E / h: it adds the compliance of a hundredth of a brick to a support, and still
+/// lets the solvers converge.
+[[nodiscard]] std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Pin& pin, const Body& body);
+
+/// Sets the foundations of a body whose pins have moved from rest to a `time` (s) of the film; with `small`, to first
+/// order. Those of pins that do not hold from the start have no springs.
+void set_foundations(const Scene& scene, const Origin& origin, double time, bool small, SoftBody& body);
 
 inline constexpr double kFoundation = 100;
 
@@ -29,8 +31,9 @@ struct SkinReaction {
   Vec3 torque = Vec3::Zero();        // N m, about the centre of the pin
 };
 
-/// For the body's current positions. `small`: torques refer to the rest shape.
-[[nodiscard]] SkinReaction reaction_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body,
-                                       double time, bool small);
+/// For the body's current positions. `springs`: that hold it now; `centre`: of the pin, m. `small`: torques refer to
+/// the rest shape.
+[[nodiscard]] SkinReaction reaction_of(const PinnedSkin& skin, const std::vector<SpringSupport>& springs,
+                                       const Vec3& centre, const Body& body, bool small);
 
 }  // namespace sprung

@@ -53,7 +53,7 @@ double thinness_cost(const World& world) {
 
 double contact_cost(const World& world) {
   if (!world.glue.empty() || (world.bodies_collide && world.bodies.size() > 1)) return kCoupledCost;
-  const auto is_held = [](const SoftBody& body) { return !body.pinned.empty(); };
+  const auto is_held = [](const SoftBody& body) { return !body.pinned.empty() || !body.foundations.empty(); };
   const bool is_free = world.obstacles.empty() || std::all_of(world.bodies.begin(), world.bodies.end(), is_held);
   return is_free ? kFreeCost : kObstacleCost;
 }

@@ -11,6 +11,7 @@
 #include "core/skin/skin.h"
 #include "core/world/loads.h"
 #include "core/world/obstacle.h"
+#include "core/world/spring_support.h"
 
 namespace sprung {
 
@@ -45,6 +46,8 @@ struct BodySkin {
 /// A solid filled with bricks, which moves, touches and is drawn.
 struct SoftBody : Body {
   std::vector<KinematicNode> pinned;  // each node once; no contact can push it
+  /// Springs that hold parts of its skin, by part; none while one is released.
+  std::vector<std::vector<SpringSupport>> foundations{};
   Loads loads{};
   ContactSkin contact{};
   BodySkin drawn{};
@@ -54,6 +57,8 @@ struct SoftBody : Body {
 
   /// The skin's vertices for these node positions (m x 3, m), m.
   [[nodiscard]] Points skin_positions(const Points& nodes) const;
+  /// The springs of all foundations, as they will be after `time` (s).
+  [[nodiscard]] std::vector<SpringSupport> supports_after(double time) const;
 };
 
 struct World {
@@ -64,5 +69,8 @@ struct World {
   Wind wind{};
   std::vector<GluedPoint> glue{};
 };
+
+/// Moves by `time` (s) what moves by itself: obstacles, and the positions that foundations hold skin at.
+void move_prescribed(World& world, double time);
 
 }  // namespace sprung

@@ -170,7 +170,7 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     std::optional<Trouble> trouble = find_trouble(world_, before, groups);
     if (end && !trouble) trouble = Trouble{end->body(), worst_brick_of(world_.bodies[end->body()]), end->what()};
     if (!trouble) {
-      move_obstacles(world_.obstacles, duration);
+      move_prescribed(world_, duration);
       return groups;
     }
     const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", location_of(world_, *trouble),

@@ -15,6 +15,7 @@
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_states.h"
+#include "core/dynamics/explicit/foundation_step.h"
 #include "core/dynamics/explicit/split_damping.h"
 #include "core/dynamics/linear/eigenvalue_bound.h"
 #include "core/error.h"
@@ -66,18 +67,20 @@ namespace {
 /// One body during a number of steps.
 class BodyStepper {
  public:
-  BodyStepper(SoftBody& body, const World& world)
+  BodyStepper(SoftBody& body, const World& world, double elapsed)
       : body_(body),
         world_(world),
         inverse_masses_(body.masses.cwiseInverse()),
         frequency_squared_(largest_frequency_squared(body)),
         damping_(damping_shares(body, frequency_squared_)),
         split_damping_(body, damping_.split_beta, frequency_squared_),
-        loads_(body, world) {}
+        loads_(body, world),
+        foundation_(body, elapsed) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); pinned nodes keep their velocity. Damping sees the velocities
   /// that the last step left, not what loads, gravity or springs add here: at rest these balance each other or contact.
-  void kick(double dt) {
+  /// `step`: s, of the drift that follows.
+  void kick(double dt, double step) {
     Body& body = body_;
     if (split_damping_.add(dt)) {
       settle();
@@ -101,6 +104,7 @@ class BodyStepper {
       pending_drift_ = 0;
     }
     if (loads != nullptr) body.velocities += dt * (inverse_masses_.asDiagonal() * *loads);
+    foundation_.apply(body_, dt, step);
     for (const KinematicNode& pinned : body_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (pinned.axes[axis]) body.velocities(pinned.node, axis) = pinned.velocity[axis];
@@ -109,7 +113,10 @@ class BodyStepper {
   }
 
   /// positions += dt velocities: deferred to the next kick, which loads them anyway.
-  void drift(double dt) { pending_drift_ += dt; }
+  void drift(double dt) {
+    pending_drift_ += dt;
+    foundation_.pass(dt);
+  }
 
   /// Called after the last of a number of steps.
   void finish() {
@@ -131,6 +138,7 @@ class BodyStepper {
   DampingShares damping_;
   SplitDamping split_damping_;
   LoadForces loads_;
+  FoundationStep foundation_;
   ForceWorkspace workspace_;
   Points forces_;
   double pending_drift_ = 0;  // s
@@ -150,12 +158,12 @@ class GroupStepper {
       : world_(world), elapsed_(group.elapsed), contacts_(states.of(group.bodies)) {
     for (const std::size_t i : group.bodies) {
       inverse_masses_.push_back(inverse_masses_of(world.bodies[i]));
-      steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world));
+      steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world, group.elapsed));
     }
   }
 
-  void kick(double dt) {
-    each([&](BodyStepper& stepper) { stepper.kick(dt); });
+  void kick(double dt, double step) {
+    each([&](BodyStepper& stepper) { stepper.kick(dt, step); });
   }
 
   void apply_contact(double dt) {
@@ -201,7 +209,7 @@ void check_finite(const World& world, double time) {
 /// v += dt a; x += dt v. First order, symplectic.
 void euler(GroupStepper& stepper, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
-    stepper.kick(dt);
+    stepper.kick(dt, dt);
     stepper.apply_contact(dt);
     stepper.drift(dt);
   }
@@ -210,11 +218,11 @@ void euler(GroupStepper& stepper, double dt, long steps) {
 /// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
 void verlet(GroupStepper& stepper, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
-    stepper.kick(step == 0 ? dt / 2 : dt);
+    stepper.kick(step == 0 ? dt / 2 : dt, dt);
     stepper.apply_contact(dt);
     stepper.drift(dt);
   }
-  if (steps > 0) stepper.kick(dt / 2);
+  if (steps > 0) stepper.kick(dt / 2, dt);
 }
 
 }  // namespace
@@ -252,7 +260,7 @@ void advance(World& world, Scheme scheme, double dt, long steps, double time) {
     groups.push_back({.bodies = rows, .steps = {.count = steps, .dt = dt}});
   }
   advance(world, scheme, groups, time, states);
-  move_obstacles(world.obstacles, duration);
+  move_prescribed(world, duration);
 }
 
 }  // namespace sprung

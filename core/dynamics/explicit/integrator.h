@@ -12,7 +12,7 @@ namespace sprung {
 //     AdaptiveIntegrator     finds contact groups and their steps; checks the frame, and repeats it with half the step
 //       advance()              runs the groups in parallel, a chunk of steps at a time
 //         GroupStepper           kick, contact, drift: one step of one group
-//           BodyStepper            springs, damping, loads and pins of one body
+//           BodyStepper            springs, damping, loads, foundations and pins of one body
 //           SweptContacts          contact by a few sweeps of impulses, and a guarantee
 
 class ContactStates;

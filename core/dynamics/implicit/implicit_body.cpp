@@ -106,7 +106,7 @@ void ImplicitBody::begin(double elapsed, double dt) {
   aim(dt);
   for (ObstaclePotential& obstacle : obstacles_) obstacle.begin(body_.positions, elapsed, dt);
   muscles_.begin();
-  hold(dt);
+  hold(elapsed, dt);
   pinned_start_ = body_.positions;
   reach_ = pinned_start_.cwiseAbs().maxCoeff();
   body_.velocities.setZero();
@@ -137,7 +137,7 @@ void ImplicitBody::aim(double dt) {
   terms_.damping_positions = positions_ + dt * velocities_;
 }
 
-void ImplicitBody::hold(double dt) {
+void ImplicitBody::hold(double elapsed, double dt) {
   std::fill(supports_.fixed.begin(), supports_.fixed.end(), false);
   for (const KinematicNode& pinned : body_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -145,6 +145,11 @@ void ImplicitBody::hold(double dt) {
       supports_.fix(pinned.node, axis);
       body_.positions(pinned.node, axis) += dt * pinned.velocity[axis];
     }
+  }
+  supports_.springs = body_.supports_after(elapsed + dt);
+  support_stiffness_ = 0;
+  for (const SpringSupport& support : supports_.springs) {
+    support_stiffness_ = std::max(support_stiffness_, support.spring.stiffness.trace());
   }
 }
 
@@ -181,6 +186,11 @@ double ImplicitBody::evaluate() {
   spring_forces(body_, workspace_, forces_);
   double energy = elastic_energy(body_, workspace_);
   energy += muscles_.add_forces(forces_);
+  if (!supports_.springs.empty()) {
+    const Points displacements = body_.positions - body_.rest_positions;
+    energy += support_energy(supports_.springs, body_, displacements);
+    forces_ += support_forces(supports_.springs, body_, displacements);
+  }
   work_ = forces_.norm() + weight_;
   const Points inertia = mass_factor_ * (body_.masses.asDiagonal() * (body_.positions - goal_));
   energy += 0.5 * flat(inertia).dot(flat(Points(body_.positions - goal_)));
@@ -208,7 +218,8 @@ void ImplicitBody::release_held() {
 bool ImplicitBody::has_converged() const {
   // The forces due to positions rounded to their last digit.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach_ *
-                          (stiffness_ + mass_factor_ * body_.masses.maxCoeff()) * std::sqrt(body_.node_count());
+                          (std::max(stiffness_, support_stiffness_) + mass_factor_ * body_.masses.maxCoeff()) *
+                          std::sqrt(body_.node_count());
   return forces_.norm() <= std::max(options_.tolerance * work_, rounding);
 }
 
@@ -226,7 +237,7 @@ bool ImplicitBody::settle_friction() {
 }
 
 void ImplicitBody::take_terms(bool definite) {
-  terms_.points.clear();
+  terms_.points = support_terms(supports_).points;
   for (ObstaclePotential& obstacle : obstacles_) obstacle.add_stiffness(body_.positions, terms_.points);
   muscles_.add_stiffness(definite, terms_.points);
 }

@@ -100,7 +100,7 @@ class ImplicitBody {
   };
 
   void aim(double dt);
-  void hold(double dt);
+  void hold(double elapsed, double dt);
   void take_terms(bool definite);
 
   SoftBody& body_;
@@ -117,15 +117,16 @@ class ImplicitBody {
   StepTerms terms_;
 
   // of the current step
-  double span_ = 0;         // s
-  double reach_ = 0;        // m, from the origin
-  Points positions_;        // before it
-  Points velocities_;       // before it
-  Points pinned_start_;     // where nodes stay, except for pinned ones
-  Points origin_;           // x0
-  Points goal_;             // positions by inertia and gravity alone
-  double mass_factor_ = 0;  // 1/s^2
-  double weight_ = 0;       // N, plus the magnitude of the loads
+  double span_ = 0;               // s
+  double reach_ = 0;              // m, from the origin
+  Points positions_;              // before it
+  Points velocities_;             // before it
+  Points pinned_start_;           // where nodes stay, except for pinned ones
+  Points origin_;                 // x0
+  Points goal_;                   // positions by inertia and gravity alone
+  double mass_factor_ = 0;        // 1/s^2
+  double weight_ = 0;             // N, plus the magnitude of the loads
+  double support_stiffness_ = 0;  // N/m, the largest of a foundation's spring
 
   History history_;  // of the previous step
   History before_;   // as it was before the current step

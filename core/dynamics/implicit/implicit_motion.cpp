@@ -51,7 +51,7 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
       advance(group, {.elapsed = dt * double(step), .dt = dt, .begin = time});
     }
   }
-  move_obstacles(world_.obstacles, dt * double(steps));
+  move_prescribed(world_, dt * double(steps));
 }
 
 void ImplicitMotion::advance(const Together& group, const Span& span) {

@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/contact/point_stiffness.h"
+#include "core/world/spring_support.h"
 
 namespace sprung {
-
-/// A spring that pulls a point of a body towards a displaced position.
-struct SpringSupport {
-  PointStiffness spring;
-  Vec3 displacement = Vec3::Zero();  // m, from rest
-};
 
 /// Which of a body's 3 m degrees of freedom (3 node + axis) keep their current values, and which of its points are held
 /// by springs.

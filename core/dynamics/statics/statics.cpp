@@ -17,38 +17,6 @@
 namespace sprung {
 namespace {
 
-/// How far the point that a spring holds is displaced with its nodes (m x 3, m).
-Vec3 displacement_of(const Body& body, const SpringSupport& support, const Points& displacements) {
-  const auto& nodes = body.grid.nodes[support.spring.brick];
-  Vec3 moved = Vec3::Zero();
-  for (int c = 0; c < 8; ++c) moved += support.spring.weights[c] * displacements.row(nodes[c]).transpose();
-  return moved;
-}
-
-/// Forces of supporting springs (m x 3, N) on the nodes, displaced from rest (m x 3, m).
-Points spring_support_forces(const Body& body, const Supports& supports, const Points& displacements) {
-  Points forces = Points::Zero(displacements.rows(), 3);
-  for (const SpringSupport& support : supports.springs) {
-    const auto& nodes = body.grid.nodes[support.spring.brick];
-    const Vec3 force =
-        support.spring.stiffness * (support.displacement - displacement_of(body, support, displacements));
-    for (int c = 0; c < 8; ++c) forces.row(nodes[c]) += support.spring.weights[c] * force.transpose();
-  }
-  return forces;
-}
-
-/// J.
-double spring_support_energy(const Body& body, const Supports& supports) {
-  if (supports.springs.empty()) return 0;
-  const Points displacements = body.positions - body.rest_positions;
-  double energy = 0;
-  for (const SpringSupport& support : supports.springs) {
-    const Vec3 stretch = support.displacement - displacement_of(body, support, displacements);
-    energy += stretch.dot(support.spring.stiffness * stretch) / 2;
-  }
-  return energy;
-}
-
 /// K u: the forces (m x 3, N) that maintain the displacements u, without supporting springs.
 Points holding_forces(const Body& body, const Points& displacements) {
   Points forces = Points::Zero(body.node_count(), 3);
@@ -69,7 +37,7 @@ Points holding_forces(const Body& body, const Points& displacements) {
 /// Adds the springs' reactions at free degrees of freedom; those at fixed ones are included already.
 void add_spring_reactions(const Body& body, const Supports& supports, const Points& displacements, Points& reactions) {
   if (supports.springs.empty()) return;
-  const Points forces = spring_support_forces(body, supports, displacements);
+  const Points forces = support_forces(supports.springs, body, displacements);
   for (Eigen::Index i = 0; i < forces.size(); ++i) {
     if (!supports.fixed[i]) reactions.data()[i] += forces.data()[i];
   }
@@ -87,7 +55,7 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
   if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
     const Points moved = body.positions - body.rest_positions + response.displacements;
     const Points driving =
-        loads + spring_support_forces(body, supports, moved) - holding_forces(body, response.displacements);
+        loads + support_forces(supports.springs, body, moved) - holding_forces(body, response.displacements);
     const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
     response.displacements += Eigen::Map<const Points>(free.data(), body.node_count(), 3);
   }
@@ -152,7 +120,7 @@ class Equilibrium {
     largest_force_ = std::max({flat(forces_).lpNorm<Eigen::Infinity>(), flat(loads_).lpNorm<Eigen::Infinity>(),
                                std::numeric_limits<double>::min()});
     if (!supports_.springs.empty()) {
-      forces_ += spring_support_forces(body_, supports_, body_.positions - body_.rest_positions);
+      forces_ += support_forces(supports_.springs, body_, body_.positions - body_.rest_positions);
     }
     Eigen::VectorXd total = flat(forces_) + flat(loads_);
     for (int i = 0; i < total.size(); ++i) {
@@ -162,7 +130,8 @@ class Equilibrium {
   }
 
   double potential() {
-    return elastic_energy(body_, workspace_) + spring_support_energy(body_, supports_) -
+    return elastic_energy(body_, workspace_) +
+           support_energy(supports_.springs, body_, body_.positions - body_.rest_positions) -
            flat(loads_).dot(flat(body_.positions));
   }
 
@@ -347,8 +316,9 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
   Supports moving = supports;
   const auto move_springs = [&](double share) {
     for (std::size_t i = 0; i < moving.springs.size(); ++i) {
-      const Vec3 first = displacement_of(body, supports.springs[i], start - body.rest_positions);
-      moving.springs[i].displacement = first + share * (supports.springs[i].displacement - first);
+      const SpringSupport& support = supports.springs[i];
+      const Vec3 stretch = stretch_of(support, body.grid.nodes[support.spring.brick], start - body.rest_positions);
+      moving.springs[i].displacement = support.displacement - (1 - share) * stretch;
     }
   };
   StaticReport report;
