@@ -57,10 +57,8 @@ MeshFacts mesh_facts(const LoadedBody& body, double unit) {
   facts.solids = long(body.solids.size());
   facts.is_closed = is_closed(body.mesh.triangles, point_of);
   for (const Solid& solid : body.solids) facts.volume += solid.volume / (unit * unit * unit);
-  std::vector<WallSample> all;
-  for (const auto& walls : body.walls) all.insert(all.end(), walls.begin(), walls.end());
-  facts.thin = thickness_quantile(all, 0.01) / body.extent.maxCoeff();
-  facts.median = thickness_quantile(all, 0.5) / body.extent.maxCoeff();
+  facts.thin = body.thinnest_wall() / body.extent.maxCoeff();
+  facts.median = thickness_quantile(body.walls, 0.5) / body.extent.maxCoeff();
   facts.repairs = body.repairs;
   return facts;
 }
@@ -148,6 +146,12 @@ std::string mesh_lines(const BodyFacts& body) {
   return text;
 }
 
+/// Bricks across the thinnest walls; 0: unknown, or so many that it does not matter.
+double walls_across(const BodyFacts& body) {
+  const double across = body.mesh.thin * body.extent.maxCoeff() / body.bricks.size;
+  return across < kResolvedWall ? across : 0;
+}
+
 std::string brick_lines(const BodyFacts& body) {
   const BrickFacts& bricks = body.bricks;
   std::string text =
@@ -163,7 +167,7 @@ std::string brick_lines(const BodyFacts& body) {
     const ThinPart& part = bricks.thin_parts[i];
     const std::string error =
         bricks.model == Model::kCalibrated
-            ? fmt::format(": bends up to {:.0f} % too little where curved", 100 * missing_bend_if_curved(part.across))
+            ? fmt::format(": bends up to {:.0f} % too little where curved", 100 * missing_bend(part.across))
             : "";
     text +=
         line("thin part", fmt::format("{}, about {} thick, {:.2g} of a brick{}", count_of(part.bricks.size(), "brick"),
@@ -171,6 +175,12 @@ std::string brick_lines(const BodyFacts& body) {
   }
   if (bricks.thin_parts.size() > 3) {
     text += line("", fmt::format("and {} more parts thinner than a brick", bricks.thin_parts.size() - 3));
+  }
+  if (const double across = walls_across(body); bricks.model == Model::kCalibrated && across > 1) {
+    text +=
+        line("walls", fmt::format("the thinnest {:.2g} bricks thick: bend up to {:.0f} % too little where curved or "
+                                  "meeting",
+                                  across, std::ceil(100 * missing_bend(across))));
   }
   return text + line("mass", fmt::format("{:.4g} kg", bricks.mass));
 }
@@ -216,7 +226,7 @@ Json json_of(const BrickFacts& bricks, double unit) {
   for (const ThinPart& part : bricks.thin_parts) {
     Json json{{"bricks", part.bricks.size()}, {"thickness", part.thickness}};
     json["thickness_bricks"] = part.across;
-    if (bricks.model == Model::kCalibrated) json["missing_bend_if_curved"] = missing_bend_if_curved(part.across);
+    if (bricks.model == Model::kCalibrated) json["missing_bend_if_curved"] = missing_bend(part.across);
     parts.push_back(std::move(json));
   }
   return {{"count", bricks.count},

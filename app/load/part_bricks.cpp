@@ -100,11 +100,7 @@ void add_coarser(const std::vector<FlatFace>& faces, double longest, PartBricks&
   }
 }
 
-double thickness_of(const LoadedBody& loaded) {
-  std::vector<WallSample> all;
-  for (const std::vector<WallSample>& some : loaded.walls) all.insert(all.end(), some.begin(), some.end());
-  return thickness_quantile(all, 0.05);
-}
+double thickness_of(const LoadedBody& loaded) { return thickness_quantile(loaded.walls, 0.05); }
 
 }  // namespace
 

@@ -114,8 +114,6 @@ constexpr double kSurfaceBricks = 0.6;  // bricks per brick-sized square of the 
 
 BrickChoice choose_brick_size(const std::vector<Solid>& solids, const std::vector<std::vector<WallSample>>& walls,
                               double longest, double budget) {
-  std::vector<WallSample> all;
-  for (const std::vector<WallSample>& some : walls) all.insert(all.end(), some.begin(), some.end());
   double volume = 0;
   double area = 0;
   for (const Solid& solid : solids) {
@@ -123,9 +121,9 @@ BrickChoice choose_brick_size(const std::vector<Solid>& solids, const std::vecto
     area += surface_area(solid);
   }
   BrickChoice choice;
-  choice.thickness = thickness_quantile(all, kCounts);
+  choice.thickness = thickness_quantile(walls, kCounts);
   choice.size = choice.thickness / kBricksAcross;
-  if (all.empty() || choice.size > longest / kFewestAlong) {
+  if (choice.thickness == 0 || choice.size > longest / kFewestAlong) {
     choice.size = longest / kFewestAlong;
     choice.reason = BrickChoice::Reason::kShape;
   }

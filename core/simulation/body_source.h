@@ -24,6 +24,9 @@ struct LoadedBody {
   std::vector<std::vector<WallSample>> walls;                   // of a mesh, by solid
   Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before the rotation; in the units of the file
   std::optional<BrickGrid> grid;                                // of a box; none for a mesh, which is yet to be filled
+
+  /// The thickness below which 1 % of the surface of a mesh is, m; 0: unknown.
+  [[nodiscard]] double thinnest_wall() const { return thickness_quantile(walls, 0.01); }
 };
 
 /// Makes the box, or reads and scales the mesh, and finds its solids; reports what was repaired. The walls are not yet

@@ -110,8 +110,20 @@ class ThinParts {
     return parts;
   }
 
+  /// `is_measured`: whether the figures of the result matter, not only its look.
+  void tell(bool is_measured, const Observer& observer) const {
+    if (count_ > 0) return warn(observer);
+    const double wall = body_.thinnest_wall();
+    const double across = wall / body_.brick_size;
+    if (!is_measured || model_ != Model::kCalibrated || !(wall > 0) || across >= kResolvedWall) return;
+    observer.note(fmt::format(
+        "{}: its thinnest walls, {}, are {:.2g} bricks thick: they bend up to {:.0f} % too little where they are "
+        "curved or meet; more bricks make that less",
+        body_.name, readable(wall, Dimension::kLength), across, std::ceil(100 * missing_bend(across))));
+  }
+
+ private:
   void warn(const Observer& observer) const {
-    if (count_ == 0) return;
     const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.position);
     const bool is_known = model_ == Model::kCalibrated;
     observer.warn(fmt::format(
@@ -120,13 +132,12 @@ class ThinParts {
         body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
         count_of(bricks_, "brick"),
         is_known ? fmt::format("they bend up to {:.0f} % too little where they are curved",
-                               100 * missing_bend_if_curved(thinnest_.across))
+                               100 * missing_bend(thinnest_.across))
                  : "stiffer and blunter than they should be",
         place.x(), place.y(), place.z(), readable(thinnest_.thickness, Dimension::kLength),
         is_known ? "" : ": bricks of that size would hold it"));
   }
 
- private:
   const LoadedBody& body_;
   Model model_;
   long count_ = 0;
@@ -144,7 +155,7 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& 
       const std::vector<ThinPart> found = parts.find(world.bodies[soft_body].grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
-    parts.warn(observer);
+    parts.tell(!is_motion(scene), observer);
   }
 }
 

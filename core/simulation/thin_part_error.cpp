@@ -4,14 +4,25 @@
 #include <array>
 
 namespace sprung {
+namespace {
 
-double missing_bend_if_curved(double across) {
-  constexpr double kSpacing = 0.25;  // bricks, from one value to the next
-  constexpr std::array<double, 4> kMissing{0.24, 0.19, 0.17, 0.14};
-  const double row = std::clamp(across / kSpacing - 1, 0.0, double(kMissing.size() - 1));
-  const std::size_t low = std::min(static_cast<std::size_t>(row), kMissing.size() - 2);
-  const double share = row - double(low);
-  return (1 - share) * kMissing[low] + share * kMissing[low + 1];
+struct Entry {
+  double across;
+  double missing;
+};
+
+constexpr std::array kMissing{Entry{0.25, 0.24}, Entry{0.5, 0.19}, Entry{0.75, 0.17},          Entry{1, 0.165},
+                              Entry{2, 0.13},    Entry{4, 0.065},  Entry{kResolvedWall, 0.035}};
+
+}  // namespace
+
+double missing_bend(double across) {
+  const double inside = std::clamp(across, kMissing.front().across, kMissing.back().across);
+  const auto* high = std::find_if(kMissing.begin() + 1, kMissing.end() - 1,
+                                  [&](const Entry& entry) { return entry.across >= inside; });
+  const Entry& low = *(high - 1);
+  const double share = (inside - low.across) / (high->across - low.across);
+  return low.missing + share * (high->missing - low.missing);
 }
 
 }  // namespace sprung

@@ -97,6 +97,26 @@ TEST_F(Inspect, WarnsAsAnimateDoesAndBothOnce) {
   EXPECT_EQ(made.err.find("is thinner than a brick", at + 1), std::string::npos) << made.err;
 }
 
+/// Statics say it too; a film, whose figures nobody reads, does not.
+TEST_F(Inspect, TellsHowMuchTooLittleWallsOfFewBricksBend) {
+  std::string text = kCubeObj;
+  text = std::regex_replace(text, std::regex("(v \\S+ \\S+) 1(\\s)"), "$1 0.1$2");
+  static_cast<void>(folder_.write("plate.obj", text));
+  EXPECT_NE(run("plate.obj --bricks 12").out.find("walls       the thinnest 1.2 bricks thick: bend up to 16 %"),
+            std::string::npos);
+  EXPECT_EQ(run("plate.obj --bricks 62").out.find("walls"), std::string::npos);
+  const auto simulate = [&](const std::string& scheme) {
+    static_cast<void>(folder_.write("scene.toml", "duration = 0.05\nfps = 20\n[solver]\nscheme = \"" + scheme +
+                                                      "\"\n[[body]]\nmesh = \"plate.obj\"\nsize = 0.1\nbricks = 12\n"
+                                                      "material = \"abs\"\n[[body.pin]]\non_surface = true\n"
+                                                      "box = { min = [0, 0, 0], max = [0, 1, 1] }\n"));
+    return run_program(folder_, "simulate scene.toml -o out/ --overwrite").err;
+  };
+  const std::string told = "plate.obj: its thinnest walls, 1 cm, are 1.2 bricks thick: they bend up to 16 % too little";
+  EXPECT_NE(simulate("linear").find(told), std::string::npos);
+  EXPECT_EQ(simulate("euler").find("thinnest walls"), std::string::npos);
+}
+
 TEST_F(Inspect, BricksByThemselves) {
   const ProgramRun made = run("cube.obj --bricks auto --json");
   ASSERT_EQ(made.exit_code, 0) << made.err;

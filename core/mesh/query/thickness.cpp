@@ -83,11 +83,12 @@ std::vector<std::vector<WallSample>> sample_thickness(const std::vector<Solid>& 
   return samples;
 }
 
-double thickness_quantile(const std::vector<WallSample>& samples, double share) {
-  if (samples.empty()) return 0;
+double thickness_quantile(const std::vector<std::vector<WallSample>>& walls, double share) {
   std::vector<double> sorted;
-  sorted.reserve(samples.size());
-  for (const WallSample& sample : samples) sorted.push_back(sample.thickness);
+  for (const std::vector<WallSample>& samples : walls) {
+    for (const WallSample& sample : samples) sorted.push_back(sample.thickness);
+  }
+  if (sorted.empty()) return 0;
   const auto rank = std::ptrdiff_t(share * double(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
   return sorted[rank];

@@ -20,8 +20,8 @@ struct WallSample {
 /// The same by solid, each with points in proportion to its area.
 [[nodiscard]] std::vector<std::vector<WallSample>> sample_thickness(const std::vector<Solid>& solids, int count);
 
-/// The quantile `share` (0 to 1) of the samples' thickness; 0 without samples.
-[[nodiscard]] double thickness_quantile(const std::vector<WallSample>& samples, double share);
+/// The quantile `share` (0 to 1) of the thickness of all samples; 0 without any.
+[[nodiscard]] double thickness_quantile(const std::vector<std::vector<WallSample>>& walls, double share);
 
 [[nodiscard]] double surface_area(const Solid& solid);
 

@@ -20,9 +20,9 @@ TEST(Thickness, OfABoxIsItsSides) {
     EXPECT_NEAR(sample.thickness, std::abs(sample.outward.dot(Vec3(1, 2, 4))), 1e-9);
   }
   // Of the surface of 28, 16 bound the side of 1, 8 that of 2 and 4 that of 4.
-  EXPECT_NEAR(thickness_quantile(samples, 0.56), 1, 1e-9);
-  EXPECT_NEAR(thickness_quantile(samples, 0.58), 2, 1e-9);
-  EXPECT_NEAR(thickness_quantile(samples, 0.87), 4, 1e-9);
+  EXPECT_NEAR(thickness_quantile({samples}, 0.56), 1, 1e-9);
+  EXPECT_NEAR(thickness_quantile({samples}, 0.58), 2, 1e-9);
+  EXPECT_NEAR(thickness_quantile({samples}, 0.87), 4, 1e-9);
   EXPECT_NEAR(surface_area(solid), 28, 1e-9);
 }
 
