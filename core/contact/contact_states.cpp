@@ -18,9 +18,9 @@ void ContactStates::begin_frame(World& world, const std::vector<std::vector<std:
   by_group_ = std::move(kept);
 }
 
-GuardCounts ContactStates::guard_counts() const {
-  GuardCounts sum;
-  for (const auto& [rows, contacts] : by_group_) sum += contacts->guard_counts();
+StepReport ContactStates::report() const {
+  StepReport sum;
+  for (const auto& [rows, contacts] : by_group_) sum += contacts->report();
   return sum;
 }
 

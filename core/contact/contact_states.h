@@ -18,8 +18,8 @@ class ContactStates {
   /// The contacts of a group of begin_frame().
   [[nodiscard]] SweptContacts& of(const std::vector<std::size_t>& group) const { return *by_group_.at(group); }
 
-  /// How often the guard acted in all groups since begin_frame().
-  [[nodiscard]] GuardCounts guard_counts() const;
+  /// Of all groups since begin_frame().
+  [[nodiscard]] StepReport report() const;
 
  private:
   std::map<std::vector<std::size_t>, std::unique_ptr<SweptContacts>> by_group_;

@@ -228,8 +228,8 @@ void ContactSweep::sweep() {
   }
 }
 
-void ContactSweep::apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
-                         double dt) {
+int ContactSweep::apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
+                        double dt) {
   ++step_;
   stop_inversions(inverse_masses, dt);
   parts_.clear();
@@ -241,6 +241,8 @@ void ContactSweep::apply(NearFeatures& near, const std::vector<Eigen::VectorXd>&
   add_contacts(near, inverse_masses, gravity, dt, false);
   for (int i = 0; i < kSweeps; ++i) sweep();
   dt_before_ = dt;
+  return int(std::count_if(rows_.begin(), rows_.end(),
+                           [](const Row& row) { return !row.is_glue && !row.impulse->isZero(0); }));
 }
 
 }  // namespace sprung

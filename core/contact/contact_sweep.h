@@ -18,8 +18,8 @@ class ContactSweep {
   ContactSweep(Group group, std::vector<GluedPoint> glue);
 
   /// Changes the bodies' velocities, after NearFeatures::begin_step(). `inverse_masses` by body of the group and node,
-  /// 1/kg, 0 for pinned nodes; `gravity` in m/s^2, its magnitude.
-  void apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt);
+  /// 1/kg, 0 for pinned nodes; `gravity` in m/s^2, its magnitude. Returns the number of contacts that carry a load.
+  int apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt);
 
  private:
   /// A node's contribution to a contact.

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/contact/contact_sweep.h"
 #include "core/contact/pairs/crossing_guard.h"
+#include "core/contact/step_report.h"
 
 namespace sprung {
 
@@ -26,19 +27,29 @@ class SweptContacts {
   /// Changes the bodies' velocities so that a step of dt satisfies every constraint. `inverse_masses` by body of the
   /// group and node, 1/kg, 0 for pinned nodes; `elapsed`: since the obstacles had the world's poses, s.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double elapsed, double dt) {
+    Stopwatch watch;
     near_.begin_step(world, elapsed, dt);
-    sweep_.apply(near_, inverse_masses, world.gravity.norm(), dt);
+    report_.search += watch.lap();
+    report_.contacts += sweep_.apply(near_, inverse_masses, world.gravity.norm(), dt);
+    report_.sweeps += watch.lap();
     guard_.apply(world, inverse_masses, dt);
+    report_.guarding += watch.lap();
     near_.end_step(dt);
   }
 
-  [[nodiscard]] const GuardCounts& guard_counts() const { return guard_.counts(); }
+  void count_springs(double seconds) { report_.springs += seconds; }
+  [[nodiscard]] StepReport report() const {
+    StepReport report = report_;
+    report.guard = guard_.counts();
+    return report;
+  }
 
  private:
   Group group_;
   NearFeatures near_;
   ContactSweep sweep_;
   CrossingGuard guard_;
+  StepReport report_;
 };
 
 }  // namespace sprung

@@ -47,7 +47,7 @@ void SceneMotion::advance_piece(double begin, double duration, const Between& be
     return;
   }
   const std::vector<GroupSteps> groups = explicit_.advance_frame(begin, duration, between, tell);
-  guard_counts_ += explicit_.guard_counts();
+  report_ += explicit_.report();
   brick_steps_ += brick_steps_of(world_, groups);
   const auto fewer = [](const GroupSteps& a, const GroupSteps& b) { return a.steps.count < b.steps.count; };
   plan_.steps = std::max_element(groups.begin(), groups.end(), fewer)->steps;

@@ -30,8 +30,8 @@ class SceneMotion {
 
   /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
-  /// How often the guard acted in all explicit steps so far.
-  [[nodiscard]] const GuardCounts& guard_counts() const { return guard_counts_; }
+  /// Of all explicit steps so far.
+  [[nodiscard]] const StepReport& report() const { return report_; }
   /// Likewise, each step counting the bricks that took it.
   [[nodiscard]] double brick_steps() const { return brick_steps_; }
   /// None for explicit steps.
@@ -45,7 +45,7 @@ class SceneMotion {
   World& world_;
   SceneDriver driver_;
   StepPlan plan_;
-  GuardCounts guard_counts_;
+  StepReport report_;
   double brick_steps_ = 0;
   AdaptiveIntegrator explicit_;
   std::optional<ImplicitMotion> implicit_;

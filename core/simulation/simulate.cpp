@@ -106,7 +106,7 @@ class MotionRun {
   /// Of `frames` frames, of which this run computed those from `first` on.
   void finish(int first, int frames) {
     note_implicit();
-    note_guard();
+    note_steps();
     const int inverted = inverted_bricks(world_);
     const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // each with its own steps
     const Steps& steps = motion_.plan().steps;
@@ -157,9 +157,16 @@ class MotionRun {
     }
   }
 
-  void note_guard() const {
-    const GuardCounts& counts = motion_.guard_counts();
+  void note_steps() const {
+    const StepReport& report = motion_.report();
+    const GuardCounts& counts = report.guard;
     if (counts.steps == 0) return;
+    const double percent = 100 / (report.springs + report.search + report.sweeps + report.guarding);
+    observer_.detail(
+        fmt::format("time of the steps: springs {:.0f} %, search {:.0f} %, sweeps {:.0f} %, guard {:.0f} %; {:.3g} "
+                    "contacts with a load in all",
+                    percent * report.springs, percent * report.search, percent * report.sweeps,
+                    percent * report.guarding, report.contacts));
     observer_.detail(fmt::format(
         "guard against crossings: acted in {} of {} steps, slowed nodes down in {}, let nodes move as one in {}",
         counts.impulses, counts.steps, counts.slowed, counts.welded));
@@ -218,7 +225,7 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
   }
   run.finish(first, frame);
   recorder.recording().crossings = run.crossings();
-  recorder.recording().guard = run.motion().guard_counts();
+  recorder.recording().guard = run.motion().report().guard;
   recorder.recording().brick_steps = run.motion().brick_steps();
   recorder.recording().inverted_bricks = inverted_bricks(simulation.world);
   return recorder.finish();

@@ -236,8 +236,13 @@ void FeaturePairs::wake() {
   }
   awake_.clear();
   for (std::size_t row = 0; row < woken_.size(); ++row) {
-    if (!may_skip(measured_[row], woken_[row])) awake_.push_back(woken_[row].sleeper);
+    if (may_skip(measured_[row], woken_[row])) continue;
+    measured_[awake_.size()] = measured_[row];
+    measured_[awake_.size()].may_support = woken_[row].may_support;
+    awake_.push_back(woken_[row].sleeper);
   }
+  measured_.resize(awake_.size());
+  are_measured_ = true;
 }
 
 long& FeaturePairs::loaded_at(const AwakePair& pair) {
@@ -287,7 +292,8 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   if (is_asleep || (may_sleep && way > coming_closer(pair.pair, pair.normal))) return;
   if (!is_point && (pierces(pair, 0) || pierces(pair, 2))) return;
   pair.is_loaded = !sleeper.impulse.isZero(0);
-  woken_.push_back({&sleeper, coming});
+  pair.impulse = &sleeper.impulse;
+  woken_.push_back({&sleeper, coming, pair.may_support});
   measured_.push_back(pair);
 }
 
@@ -309,7 +315,7 @@ void FeaturePairs::orient(AwakePair& pair, bool is_inside) {
   pair.gap = -pair.gap;
 }
 
-void FeaturePairs::measure(std::vector<AwakePair>& awake) {
+void FeaturePairs::measure_awake() {
   measured_.clear();
   for (Sleeper* sleeper : awake_) {
     AwakePair pair = measure(sleeper->pair);
@@ -318,6 +324,11 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
     pair.impulse = &sleeper->impulse;
     measured_.push_back(pair);
   }
+}
+
+void FeaturePairs::measure(std::vector<AwakePair>& awake) {
+  if (!are_measured_) measure_awake();
+  are_measured_ = false;
   choose_supports(measured_);
   for (const AwakePair& pair : measured_) {
     if (pair.gap > 0 || pair.may_support) awake.push_back(pair);

@@ -24,7 +24,8 @@ class FeaturePairs : private NearLists {
 
   /// Call after SurfaceTree::follow(): finds the pairs that may meet until the next call.
   void wake();
-  /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
+  /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh(), first at the
+  /// positions of wake().
   void measure(std::vector<AwakePair>& awake);
 
  private:
@@ -78,6 +79,7 @@ class FeaturePairs : private NearLists {
   /// The gap (m) at which contact keeps two features: so that what is drawn at them keeps off too.
   [[nodiscard]] double reach_of(const FeaturePair& pair);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
+  void measure_awake();
   /// Returns whether one of two edges passes through a triangle at the other: that of the pair's first corners if
   /// `edge` is 0, of its last if it is 2.
   [[nodiscard]] bool pierces(const AwakePair& edges, int edge);
@@ -107,7 +109,8 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] double coming_closer(const FeaturePair& pair, const Vec3& normal);
   struct Woken {
     Sleeper* sleeper;
-    double coming;  // m, that the two may come closer until woken again
+    double coming;     // m, that the two may come closer until woken again
+    bool may_support;  // before another one is chosen
   };
   /// The step in which a pair carried a load at the node nearest to the point of this one.
   [[nodiscard]] long& loaded_at(const AwakePair& pair);
@@ -126,7 +129,8 @@ class FeaturePairs : private NearLists {
   std::vector<AlignedBox> boxes_;  // see find_boxes()
   std::vector<Sleeper*> awake_;
   std::vector<Woken> woken_;
-  std::vector<AwakePair> measured_;
+  std::vector<AwakePair> measured_;  // of those awake, if they were measured as they were woken
+  bool are_measured_ = false;
   std::array<std::vector<Nearest>, 2> nearest_;  // by side of the point
   std::array<std::vector<Inside>, 2> inside_;    // likewise
   long look_ = 0;

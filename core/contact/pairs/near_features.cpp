@@ -137,6 +137,7 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
   for (std::size_t i = 0; i < surfaces_.obstacles.size(); ++i) {
     move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *surfaces_.obstacles[i]);
   }
+  each_tree([](SurfaceTree& tree) { tree.refresh(); });
   if (seen_.empty()) predict(world, dt, kSlack);
   measure(world);
 }
@@ -201,7 +202,6 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
 }
 
 void NearFeatures::measure(const World& world) {
-  each_tree([](SurfaceTree& tree) { tree.refresh(); });
   awake_.clear();
   for (std::vector<Against>& of_body : against_) {
     for (Against& against : of_body) {

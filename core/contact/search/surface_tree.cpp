@@ -179,7 +179,7 @@ void SurfaceTree::measure(const Points& moved, const Points& moving, double more
 }
 
 void SurfaceTree::follow(double time, double more) {
-  refresh();
+  refresh_velocities();
   ++look_;
   time_ahead_ = time;
   distance_ahead_ = more;

@@ -44,8 +44,8 @@ class SurfaceTree {
     std::fill(heights_about_.begin(), heights_about_.end(), Cached<double>{});
     refresh();
   }
-  /// Call every few steps, when velocities are those of the coming step; until the next call nothing may move further
-  /// than `time` (s) at them plus `more` (m).
+  /// Call every few steps, after refresh(), when velocities are those of the coming step; until the next call nothing
+  /// may move further than `time` (s) at them plus `more` (m).
   void follow(double time, double more);
   /// The time and the distance given to follow(), s and m.
   [[nodiscard]] double time_ahead() const { return time_ahead_; }

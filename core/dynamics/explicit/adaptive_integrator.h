@@ -36,8 +36,8 @@ class AdaptiveIntegrator {
   /// short enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
-  /// How often the guard acted in the last frame.
-  [[nodiscard]] GuardCounts guard_counts() const { return contacts_.guard_counts(); }
+  /// Of the last frame.
+  [[nodiscard]] StepReport report() const { return contacts_.report(); }
 
   /// The state besides positions and velocities that the next frame depends on.
   void serialize(IntegratorState& state) { state.serialize_as_double(halvings_); }

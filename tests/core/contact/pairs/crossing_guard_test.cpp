@@ -213,7 +213,7 @@ GuardCounts counts_of_frame(World& world) {
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   static_cast<void>(motion.advance_frame(
       0, 0.01, [](double) {}, [](const std::string& what) { ADD_FAILURE() << what; }));
-  return motion.guard_counts();
+  return motion.report().guard;
 }
 
 TEST(CrossingGuard, CountsTheStepsInWhichItActs) {

@@ -38,7 +38,10 @@ class FeatureRace {
   /// Looks ahead for some steps of constant velocities. Returns how many pairs might cross in one of them and sleep;
   /// adds those that might to `near`.
   long look(int steps, long& near) {
-    for (int i = 0; i < (is_self() ? 1 : 2); ++i) trees_[i].follow(steps * dt_, 0);
+    for (int i = 0; i < (is_self() ? 1 : 2); ++i) {
+      trees_[i].refresh();
+      trees_[i].follow(steps * dt_, 0);
+    }
     pairs_.wake();
     find_crossed();
     long missed = 0;

@@ -31,6 +31,7 @@ long missed_points(Obstacle obstacle, unsigned seed, long& near) {
   for (int look = 0; look < 200; ++look) {
     waves.set_velocities(body, kStep * kAhead * look);
     body.velocities.col(1).array() -= 0.5 * body.positions.col(1).mean();  // stays near
+    tree.refresh();
     tree.follow(kAhead * kStep, 0);
     pairs.wake(obstacle, pose_after(obstacle, 0), kAhead * kStep);
     for (int step = 0; step < kAhead; ++step) {

@@ -69,6 +69,7 @@ class FrontRace {
 
   /// Returns how many pairs that can meet in this step are of bricks in no list; adds all that can to near.
   long step(long& near) {
+    for (SurfaceTree* tree : {&tree_a_, &tree_b_}) tree->refresh();
     tree_a_.follow(dt_, 0);
     if (!is_self()) tree_b_.follow(dt_, 0);
     static_cast<void>(front_.advance());
@@ -194,6 +195,7 @@ struct BoxesAboveEachOther {
 
   /// Advances the front, then the bodies. Returns whether any list has changed.
   bool step(double dt) {
+    for (SurfaceTree* tree : {&tree_a, &tree_b}) tree->refresh();
     tree_a.follow(dt, 0);
     tree_b.follow(dt, 0);
     const bool has_changed = front.advance();

@@ -89,6 +89,7 @@ TEST(SurfaceTree, KnowsHowHighTheDrawnSkinIsAboveItsTriangles) {
   EXPECT_NEAR(tree.height_about(corner(0)), 0.1 * 0.1, 1e-12) << "of both of its triangles";
   EXPECT_EQ(tree.height_about(corner(3)), 0) << "below";
   tent.body.positions.col(1) *= 1.2;
+  tree.refresh();
   for (int look = 0; look < 10; ++look) tree.follow(1e-3, 0);
   EXPECT_NEAR(tree.height_about(corner(1)), 0.12 * 0.1, 1e-12) << "it follows the brick";
 }
