@@ -350,6 +350,41 @@ TEST_F(SceneFacts, OctopusDropsThroughAFunnel) {
   EXPECT_LT(film.skin(film.last()).col(1).maxCoeff(), 0.174);  // the lower end of the funnel
 }
 
+TEST_F(SceneFacts, MatLiesOnKnives) {
+  const FilmFacts film("contact/knives", {{"duration", "0.5"}});
+  film.expect_apart();
+  constexpr double kPoints = 0.08;  // m, of the knives
+  EXPECT_GT(film.skin(0).col(1).minCoeff(), kPoints + 0.09);
+  const Points mat = film.skin(film.last());
+  int held = 0;  // vertices between the outermost knives
+  for (const auto& point : mat.rowwise()) {
+    EXPECT_GT(point.y(), 0.01);
+    if (std::abs(point.x()) > 0.09 || std::abs(point.z()) > 0.035) continue;
+    ++held;
+    EXPECT_NEAR(point.y(), kPoints + 0.004, 0.012);
+  }
+  EXPECT_GT(held, 50);
+}
+
+/// Whichever rings are linked at the start still are: no two neighbours are further apart than two stretched rings.
+TEST_F(SceneFacts, NetCatchesABall) {
+  const FilmFacts film("contact/net", {{"duration", "0.35"}});
+  film.expect_apart();
+  const std::size_t ball = film.bodies() - 1;
+  EXPECT_EQ(film.bodies(), 97U);
+  EXPECT_GT(film.middle(0, ball).y(), 0.3);
+  EXPECT_LT(film.middle(film.last(), ball).y(), 0.15);
+  constexpr double kLinked = 0.03;   // m, at the start at most
+  constexpr double kApart = 0.0675;  // m, of two rings of 4.8 cm, stretched by half
+  for (std::size_t a = 0; a < ball; ++a) {
+    EXPECT_GT(film.middle(film.last(), a).y(), 0.02) << a;
+    for (std::size_t b = a + 1; b < ball; ++b) {
+      if ((film.middle(0, a) - film.middle(0, b)).norm() > kLinked + 0.005) continue;
+      EXPECT_LT((film.middle(film.last(), a) - film.middle(film.last(), b)).norm(), kApart) << a << " " << b;
+    }
+  }
+}
+
 TEST_F(SceneFacts, PouredBodiesStayInTheBowl) {
   const FilmFacts film("contact/hundred", {}, [](Film& scene) {
     if (std::getenv("SPRUNG_FULL_SCENES") != nullptr) return;
