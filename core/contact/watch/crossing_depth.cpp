@@ -17,6 +17,8 @@
 namespace sprung {
 namespace {
 
+constexpr double kInsideOut = -0.1;  // turns; the surface's own points have at least 0 where it is not folded over
+
 using Edge = std::pair<int, int>;  // vertices, the lower one first
 
 /// A point where an edge passes through a triangle.
@@ -88,7 +90,9 @@ class InnerPart {
   [[nodiscard]] const std::map<Edge, std::vector<Passage>>& passages() const { return passages_; }
   [[nodiscard]] bool is_inside(const Vec3& position) const {
     // A point on the surface itself gets half a turn from it.
-    return other_.box().contains(position) && other_.winding().at(position) > (is_self() ? 1 : 0.5);
+    if (!other_.box().contains(position)) return false;
+    const double turns = other_.winding().at(position);
+    return is_self() ? turns > 1 || turns < kInsideOut : turns > 0.5;
   }
 
  private:

@@ -13,8 +13,9 @@ struct CrossingDepth {
 /// may be the same one, in itself. The largest distance from the other surface (of itself: from those triangles that
 /// face the point) of the vertices of either that are inside the other and connected to an edge that crosses it, and of
 /// the midpoints of edges between their crossings. Inside is decided by winding numbers, so that surfaces may be open
-/// or folded. `tangles`: see tangles_of(); vertices of a surface in itself that belong to any are neither measured nor
-/// followed. In double precision. Both must be complete.
+/// or folded; inside itself is a surface where it covers a point twice, or where it is inside out. `tangles`: see
+/// tangles_of(); vertices of a surface in itself that belong to any are neither measured nor followed. In double
+/// precision. Both must be complete.
 [[nodiscard]] CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs,
                                            const std::vector<int>& tangles = {});
 

@@ -97,6 +97,21 @@ TEST(Crossings, NeedleThroughAPlateIsHalfAsDeepAsThePlate) {
   EXPECT_NEAR(depth_between(plate, needle).depth, 0.002, 1e-9);
 }
 
+/// The middle of a box's top is pressed out through its bottom: what is beyond that is inside out, not in the box
+/// twice.
+TEST(Crossings, SkinPressedThroughItselfIsAsDeepAsItComesOut) {
+  Skin box = skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02);
+  const double top = box.positions.col(1).maxCoeff();
+  int pressed = 0;
+  for (auto point : box.positions.rowwise()) {
+    if (point.y() < top - 1e-6 || std::abs(point.x()) > 0.03 || std::abs(point.z()) > 0.03) continue;
+    point.y() -= 0.104;
+    ++pressed;
+  }
+  ASSERT_GT(pressed, 0);
+  EXPECT_NEAR(depth_within(box).depth, 0.004, 1e-9);
+}
+
 /// Of three boxes in one skin two overlap from the start, and the third enters one of these.
 TEST(Crossings, WhatIsTangledAtTheStartCanBeLeftAlone) {
   const Skin box = skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02);
