@@ -101,6 +101,7 @@ Inspection inspect(const Preparation& prepared, const Film& film) {
     facts.unit = 1 / body.file_from_rest.linear().col(0).norm();
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
+    facts.bricks.walls = body.thinnest_wall() / body.brick_size;
     for (std::size_t at = 0; at < bodies.size(); ++at) {
       const Origin& origin = prepared.simulation.origins[at];
       if (origin.body != row || origin.copy != 0) continue;
@@ -146,12 +147,6 @@ std::string mesh_lines(const BodyFacts& body) {
   return text;
 }
 
-/// Bricks across the thinnest walls; 0: unknown, or so many that it does not matter.
-double walls_across(const BodyFacts& body) {
-  const double across = body.mesh.thin * body.extent.maxCoeff() / body.bricks.size;
-  return across < kResolvedWall ? across : 0;
-}
-
 std::string brick_lines(const BodyFacts& body) {
   const BrickFacts& bricks = body.bricks;
   std::string text =
@@ -176,11 +171,11 @@ std::string brick_lines(const BodyFacts& body) {
   if (bricks.thin_parts.size() > 3) {
     text += line("", fmt::format("and {} more parts thinner than a brick", bricks.thin_parts.size() - 3));
   }
-  if (const double across = walls_across(body); bricks.model == Model::kCalibrated && across > 1) {
+  if (bricks.model == Model::kCalibrated && bricks.walls > 1 && bricks.walls < kResolvedWall) {
     text +=
         line("walls", fmt::format("the thinnest {:.2g} bricks thick: bend up to {:.0f} % too little where curved or "
                                   "meeting",
-                                  across, std::ceil(100 * missing_bend(across))));
+                                  bricks.walls, std::ceil(100 * missing_bend(bricks.walls))));
   }
   return text + line("mass", fmt::format("{:.4g} kg", bricks.mass));
 }
@@ -229,6 +224,10 @@ Json json_of(const BrickFacts& bricks, double unit) {
     if (bricks.model == Model::kCalibrated) json["missing_bend_if_curved"] = missing_bend(part.across);
     parts.push_back(std::move(json));
   }
+  Json walls{{"thickness_bricks", or_null(bricks.walls)}};
+  if (bricks.model == Model::kCalibrated && bricks.walls > 0 && bricks.walls < kResolvedWall) {
+    walls["missing_bend_if_curved"] = missing_bend(bricks.walls);
+  }
   return {{"count", bricks.count},
           {"nodes", bricks.nodes},
           {"size", bricks.size},
@@ -239,6 +238,7 @@ Json json_of(const BrickFacts& bricks, double unit) {
           {"volume_m3", bricks.volume},
           {"volume_error", bricks.volume_error},
           {"mass", bricks.mass},
+          {"walls", walls},
           {"thin_parts", parts}};
 }
 
@@ -282,6 +282,7 @@ BodyFacts together(const std::vector<BodyFacts>& bodies) {
     all.bricks.solids += bricks.solids;
     all.bricks.divided += bricks.divided;
     all.bricks.size = std::min(all.bricks.size, bricks.size);
+    all.bricks.walls = std::min(all.bricks.walls, bricks.walls);
     all.bricks.min_fill = std::min(all.bricks.min_fill, bricks.min_fill);
     all.bricks.volume += bricks.volume;
     all.bricks.mass += bricks.mass;

@@ -33,6 +33,7 @@ struct BrickFacts {
   double volume = 0;        // m^3
   double volume_error = 0;  // relative to the solids
   std::vector<ThinPart> thin_parts;
+  double walls = 0;  // bricks across the thinnest walls; 0: unknown
   Model model = Model::kCalibrated;
   double mass = 0;  // kg
 };

@@ -104,7 +104,10 @@ TEST_F(Inspect, TellsHowMuchTooLittleWallsOfFewBricksBend) {
   static_cast<void>(folder_.write("plate.obj", text));
   EXPECT_NE(run("plate.obj --bricks 12").out.find("walls       the thinnest 1.2 bricks thick: bend up to 16 %"),
             std::string::npos);
-  EXPECT_EQ(run("plate.obj --bricks 62").out.find("walls"), std::string::npos);
+  EXPECT_EQ(run("cube.obj --bricks 8").out.find("walls"), std::string::npos);
+  const nlohmann::json walls = nlohmann::json::parse(run("plate.obj --bricks 12 --json").out)["bricks"]["walls"];
+  EXPECT_NEAR(walls["thickness_bricks"].get<double>(), 1.2, 0.01);
+  EXPECT_NEAR(walls["missing_bend_if_curved"].get<double>(), 0.158, 1e-6);
   const auto simulate = [&](const std::string& scheme) {
     static_cast<void>(folder_.write("scene.toml", "duration = 0.05\nfps = 20\n[solver]\nscheme = \"" + scheme +
                                                       "\"\n[[body]]\nmesh = \"plate.obj\"\nsize = 0.1\nbricks = 12\n"
