@@ -9,9 +9,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "tests/support/golden.h"
 #include "tests/support/still_life.h"
 
@@ -24,11 +26,7 @@ double psnr(const Image& a, const Image& b) {
   return sum == 0 ? 1e9 : 10 * std::log10(255.0 * 255.0 * double(a.pixels.size()) / sum);
 }
 
-std::uint64_t hash(const Image& image) {  // FNV-1a
-  std::uint64_t value = 14695981039346656037ULL;
-  for (const std::uint8_t byte : image.pixels) value = (value ^ byte) * 1099511628211ULL;
-  return value;
-}
+std::uint64_t hash(const Image& image) { return hash_of(std::as_bytes(std::span(image.pixels))); }
 
 /// Two rows: the upper half of the first colour.
 Image two_halves(std::array<std::uint8_t, 3> upper, std::array<std::uint8_t, 3> lower) {
