@@ -18,7 +18,7 @@ class ContactStates {
   /// The contacts of a group of begin_frame().
   [[nodiscard]] SweptContacts& of(const std::vector<std::size_t>& group) const { return *by_group_.at(group); }
 
-  /// Of all groups since begin_frame().
+  /// Covers the steps of all groups since begin_frame().
   [[nodiscard]] StepReport report() const;
 
  private:

@@ -5,7 +5,8 @@
 
 namespace sprung {
 
-/// What explicit steps of groups of bodies did, and what they took: seconds of the threads that ran the groups.
+/// Counts what explicit steps of groups of bodies did, and the seconds that they took on the threads that ran the
+/// groups.
 struct StepReport {
   GuardCounts guard;
   double contacts = 0;  // that carried a load, summed over the steps

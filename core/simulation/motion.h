@@ -30,7 +30,7 @@ class SceneMotion {
 
   /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
-  /// Of all explicit steps so far.
+  /// Covers all explicit steps so far.
   [[nodiscard]] const StepReport& report() const { return report_; }
   /// Likewise, each step counting the bricks that took it.
   [[nodiscard]] double brick_steps() const { return brick_steps_; }

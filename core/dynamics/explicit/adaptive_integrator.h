@@ -36,7 +36,7 @@ class AdaptiveIntegrator {
   /// short enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
-  /// Of the last frame.
+  /// Covers the steps of the last frame.
   [[nodiscard]] StepReport report() const { return contacts_.report(); }
 
   /// The state besides positions and velocities that the next frame depends on.
