@@ -13,7 +13,7 @@ struct PartLimits {
   std::optional<double> safety;        // strength over stress
 };
 
-/// Whether a part meets its limits.
+/// Says whether a part meets its limits.
 struct PartVerdict {
   bool holds = true;
   std::optional<double> safety;  // strength over the largest stress away from singularities; none: one is unknown

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// Whether displacements are assumed to be small.
+/// Decides whether displacements are assumed to be small.
 enum class PartAnalysis {
   kAuto,  // kLinear, unless the part moves by more than a tenth of its length
   kLinear,

@@ -16,7 +16,7 @@ namespace sprung {
 [[nodiscard]] Film read_scene(const std::filesystem::path& file,
                               const MaterialLibrary& library = *built_in_materials());
 
-/// Whether the files that a scene names have to exist.
+/// Says whether the files that a scene names have to exist.
 enum class SceneFiles { kPresent, kAnywhere };
 
 /// The same for text read from (or standing for) a file; mesh paths are relative to the file's folder.

@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// What a tension (or compression) test measured.
+/// The measurements of a tension (or compression) test.
 struct TensionCurve {
   std::vector<double> stretches;  // length over rest length, above 0
   std::vector<double> stresses;   // nominal: force over the area at rest, Pa; negative in compression

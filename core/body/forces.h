@@ -70,8 +70,8 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 [[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
 
-/// By how much elastic_energy() may be rounded, J: a brick's energy is a small difference of terms as large as Young's
-/// modulus times its volume.
+/// The rounding error of elastic_energy(), J, at most: a brick's energy is a small difference of terms as large as
+/// Young's modulus times its volume.
 [[nodiscard]] double energy_rounding(const Body& body);
 
 /// Energies of some bricks, with the body's nodes at `positions` (m x 3, m), J; those of all add up to

@@ -8,7 +8,7 @@ namespace sprung {
 
 /// m/s^2: penetrations are resolved without gravity as well.
 inline constexpr double kMinGravity = 0.1;
-/// Of a contact's weights: what pinned nodes carry cannot be moved.
+/// The least share of a contact's weights on free nodes: with less it cannot be moved.
 inline constexpr double kMinFree = 0.05;
 
 /// The least speed of a point along the normal, relative to the other surface, m/s: in a step it may approach until it

@@ -16,7 +16,7 @@ struct Energy {
   [[nodiscard]] double sum() const { return kinetic + elastic + potential; }
 };
 [[nodiscard]] Energy energy_of(const Body& body, const Vec3& gravity);
-/// By body of the world, all or some of them.
+/// The energies of all bodies of the world, or of some of them, by body.
 [[nodiscard]] std::vector<Energy> energies_of(const World& world);
 [[nodiscard]] std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> bodies);
 

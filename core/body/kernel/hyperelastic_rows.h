@@ -145,7 +145,7 @@ struct Eigensystem {
   Gradient axes;  // the columns of Q
 };
 
-/// By the cyclic Jacobi method, which converges quadratically: for 3 x 3 matrices five sweeps leave nothing but
+/// Uses the cyclic Jacobi method, which converges quadratically: for 3 x 3 matrices five sweeps leave nothing but
 /// rounding. Source: Golub, Van Loan, "Matrix Computations", 4th ed., section 8.5.
 [[nodiscard]] inline Eigensystem eigensystem(const Symmetric& c) {
   constexpr int kSweeps = 5;

@@ -4,8 +4,8 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// What trilinear_map() and give_corners() do row by row, for matrices: visits the corners, or vectors of the map, pair
-/// by pair along each axis.
+/// Visits the corners, or the vectors of the map, pair by pair along each axis: does for matrices what trilinear_map()
+/// and give_corners() do row by row.
 template <class Join>
 [[gnu::always_inline]] inline void join_pairs(TrilinearMap& values, const Join& join) {
 #pragma GCC unroll 3

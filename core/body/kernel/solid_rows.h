@@ -506,7 +506,7 @@ class PackOfSolids {
   SolidNumbers<kCut> numbers_;
 };
 
-/// What a part asks of a pack; `first`: of the lanes for the energy.
+/// Does what a part asks of a pack; `first`: of the lanes for the energy.
 template <Part kPart, bool kCut, class Corners>
 [[gnu::always_inline]] inline void act(const PackOfSolids<kPart, kCut>& bricks, const Corners& corners, double beta,
                                        int first, Energy& energy) {

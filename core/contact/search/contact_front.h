@@ -87,7 +87,7 @@ class ContactFront {
   };
 
   [[nodiscard]] bool is_self() const { return &a_ == &b_; }
-  /// By how much (rad) their parts have to turn before any of their normals may face each other.
+  /// The angle (rad) that their parts have to turn before any of their normals may face each other.
   [[nodiscard]] double turn_until_facing(int a, int b);
   /// How far any two points of two subtrees have come closer since they were last followed, and may until the next
   /// time.
