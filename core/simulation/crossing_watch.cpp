@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <variant>
 
 #include "core/contact/watch/crossing_pairs.h"
@@ -34,7 +36,9 @@ const Crossings* deepest_of(const std::vector<Crossings>& frames) {
 CrossingWatch::CrossingWatch(const Scene& scene, const Simulation& simulation)
     : scene_(scene), simulation_(simulation) {
   const World& world = simulation.world;
-  for (const SoftBody& body : world.bodies) surfaces_.emplace_back(body);
+  std::vector<std::optional<DrawnSurface>> of_bodies(world.bodies.size());
+  tbb::parallel_for(std::size_t{0}, of_bodies.size(), [&](std::size_t i) { of_bodies[i].emplace(world.bodies[i]); });
+  for (std::optional<DrawnSurface>& surface : of_bodies) surfaces_.push_back(std::move(*surface));
   for (const StageObstacle& obstacle : simulation.obstacles) {
     surfaces_.emplace_back(obstacle.skin).move_to(skin_positions(obstacle, 0));
   }
