@@ -32,13 +32,18 @@ FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_
       friction_(friction),
       joints_(std::move(joints)),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)),
-      nearest_{std::vector<Nearest>(a.skin().points.size()), std::vector<Nearest>(b.skin().points.size())},
-      inside_{std::vector<Inside>(a.skin().points.size()), std::vector<Inside>(b.skin().points.size())},
-      loaded_{std::vector<long>(std::size_t(a.body().node_count()), -1),
-              std::vector<long>(std::size_t(b.body().node_count()), -1)},
       front_(a, b, kNear * brick_, *this) {}
 
+void FeaturePairs::make_tables() {
+  for (std::size_t side = 0; side < 2; ++side) {
+    nearest_[side].resize(tree(side).skin().points.size());
+    inside_[side].resize(tree(side).skin().points.size());
+    loaded_[side].resize(std::size_t(tree(side).body().node_count()), -1);
+  }
+}
+
 bool FeaturePairs::fill(const NearBricks& bricks) {
+  if (lists_.empty()) make_tables();
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));
   NearList& list = lists_[bricks.list];
   std::vector<Sleeper> before = std::move(list.sleepers);

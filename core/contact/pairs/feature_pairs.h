@@ -64,6 +64,8 @@ class FeaturePairs : private NearLists {
     bool value = false;
   };
 
+  /// Makes what is kept by point and node: not before any are near, since most bodies of many never are.
+  void make_tables();
   bool fill(const NearBricks& bricks) override;
   double budget(const NearBricks& bricks) override { return lists_[bricks.list].unlisted; }
   bool clear(int list) override;
