@@ -35,13 +35,7 @@ template <>
 inline constexpr Names<RepairMode, 3> kNames<RepairMode>{
     "way of repair", {{{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}}};
 template <>
-inline constexpr Names<StrainEnergyKind, 5> kNames<StrainEnergyKind>{
-    "law",
-    {{{"neo-hooke", StrainEnergyKind::kNeoHooke},
-      {"mooney-rivlin", StrainEnergyKind::kMooneyRivlin},
-      {"ogden", StrainEnergyKind::kOgden},
-      {"fung", StrainEnergyKind::kFung},
-      {"linear", StrainEnergyKind::kLinear}}}};
+inline constexpr Names<StrainEnergyKind, 5> kNames<StrainEnergyKind>{"law", kLawNames};
 template <>
 inline constexpr Names<Interpolation, 3> kNames<Interpolation>{
     "interpolation",

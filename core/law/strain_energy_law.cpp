@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -52,8 +53,7 @@ std::string find_ogden_fault(const StrainEnergyLaw& law) {
 }  // namespace
 
 std::string_view law_name(StrainEnergyKind kind) {
-  static constexpr std::array<std::string_view, 5> kLawNames{"neo-hooke", "mooney-rivlin", "ogden", "fung", "linear"};
-  return kLawNames[std::size_t(kind)];
+  return std::find_if(kLawNames.begin(), kLawNames.end(), [&](const auto& one) { return one.second == kind; })->first;
 }
 
 std::string parameters_text(const StrainEnergyLaw& law) {

@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sprung {
@@ -40,7 +42,12 @@ struct StrainEnergyLaw {
 
 inline constexpr std::size_t kMaxOgdenTerms = 3;
 
-/// "neo-hooke", "mooney-rivlin", ...
+inline constexpr std::array<std::pair<std::string_view, StrainEnergyKind>, 5> kLawNames{
+    {{"neo-hooke", StrainEnergyKind::kNeoHooke},
+     {"mooney-rivlin", StrainEnergyKind::kMooneyRivlin},
+     {"ogden", StrainEnergyKind::kOgden},
+     {"fung", StrainEnergyKind::kFung},
+     {"linear", StrainEnergyKind::kLinear}}};
 [[nodiscard]] std::string_view law_name(StrainEnergyKind kind);
 
 /// ", mooney_share = 0.2": the parameters that are given, as TOML.
