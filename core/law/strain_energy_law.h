@@ -42,6 +42,7 @@ struct StrainEnergyLaw {
 
 inline constexpr std::size_t kMaxOgdenTerms = 3;
 
+/// As scenes and material files name them.
 inline constexpr std::array<std::pair<std::string_view, StrainEnergyKind>, 5> kLawNames{
     {{"neo-hooke", StrainEnergyKind::kNeoHooke},
      {"mooney-rivlin", StrainEnergyKind::kMooneyRivlin},
