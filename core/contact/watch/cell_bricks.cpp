@@ -52,10 +52,6 @@ struct RestCell {
   double radius = 0;
 };
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::acos(std::clamp(a.dot(b) / std::max(a.norm() * b.norm(), 1e-300), -1.0, 1.0));
-}
-
 RestCell rest_cell(const Skin& skin, const CellTriangles& cell) {
   RestCell at_rest{.triangles = rest_triangles(skin, cell)};
   for (const RestTriangle& triangle : at_rest.triangles) at_rest.middle += triangle.middle;
@@ -73,17 +69,10 @@ RestCell rest_cell(const Skin& skin, const CellTriangles& cell) {
   return at_rest;
 }
 
-/// How far the triangles of one cell lie in front of another's, at most.
-double most_ahead(const RestCell& of, const RestCell& other) {
-  const Vec3 way = other.middle - of.middle;
-  const double angle = std::max(0.0, angle_between(of.axis, way) - of.spread);
-  return way.norm() * std::cos(angle) + of.radius + other.radius;
-}
-
 bool are_delicate(const RestCell& a, const RestCell& b, double brick) {
-  if (angle_between(a.axis, b.axis) + a.spread + b.spread < std::acos(kOpposite)) return false;
+  const double between = std::acos(std::clamp(a.axis.dot(b.axis), -1.0, 1.0));
+  if (between + a.spread + b.spread < std::acos(kOpposite)) return false;
   const double behind = -CellBricks::kThin * brick;
-  if (std::min(most_ahead(a, b), most_ahead(b, a)) <= behind) return false;
   return std::any_of(a.triangles.begin(), a.triangles.end(), [&](const RestTriangle& one) {
     if ((b.middle - one.middle).dot(one.normal) + b.radius <= behind) return false;
     return std::any_of(b.triangles.begin(), b.triangles.end(),
