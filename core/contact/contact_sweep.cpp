@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bricks/brick_topology.h"
 #include "core/contact/contacts.h"
 #include "core/contact/glue.h"
 #include "core/contact/search/contact_surface.h"
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kApproach = 0.5;  // of the way to the contact distance, by which features may approach per step
 constexpr double kRecoveryHeight = 0.005;  // features that overlap separate as after a fall by that part of it
-constexpr double kYield = 0.02;  // of an impulse of glue: what it leaves of the velocity, times the mass there
+constexpr double kYield = 0.02;    // of an impulse of glue: what it leaves of the velocity, times the mass there
+constexpr double kFurthest = 0.5;  // bricks at rest by which a point is moved to where friction acts
 constexpr int kInversionSweeps = 4;
 constexpr int kSweeps = 6;  // after one, some balls in a bowl do not come to rest
 
@@ -23,6 +25,22 @@ double min_speed(const AwakePair& pair, double speed, double gravity, double dt)
   if (rest > 0) return -kApproach * rest / dt;
   const double recovery = std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kMinGravity) * rest);
   return recovery * std::min(1.0, -rest / pair.reach);
+}
+
+/// The change of a point's weights, exact in the trilinear map, that moves the point by `way` (m); 0 if its brick is
+/// too flat for that.
+CornerWeights weights_of_way(const Body& body, const ContactPoint& point, const Vec3& way) {
+  Eigen::Matrix<double, 8, 3> rates;  // of the weights along each axis of the brick
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const double along = point.weights[corner] + point.weights[corner ^ 1 << axis];
+      rates(corner, axis) = on_high_side(corner, axis) ? along : -along;
+    }
+  }
+  const Mat3 map = columns_of(body.grid.nodes[point.brick], body.positions) * rates;
+  const Vec3 local = map.partialPivLu().solve(way);  // bricks
+  if (!(local.squaredNorm() < kFurthest * kFurthest)) return CornerWeights::Zero();
+  return rates * local;
 }
 
 }  // namespace
@@ -133,8 +151,22 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
         add_part(body, node, share * weight, inverse_masses[body][node], row);
       });
     }
+    if (pair.friction > 0) move_together(near, pair, inverse_masses, row);
     finish_row(row);
     if (!are_loaded) static_cast<void>(is_supported_at_node(near, pair, false));
+  }
+}
+
+void ContactSweep::move_together(NearFeatures& near, const AwakePair& pair,
+                                 const std::vector<Eigen::VectorXd>& inverse_masses, Row& row) {
+  const std::size_t body = pair.body_of(0);
+  if (body >= near.group_size() || pair.body_of(3) >= near.group_size()) return;
+  const int corner = pair.pair.count == 2 && pair.weights[1] > pair.weights[0] ? 1 : 0;
+  const ContactPoint& point = near.point_of(pair, corner);
+  const CornerWeights change = weights_of_way(*group_[body], point, -pair.gap * pair.normal);
+  const auto& nodes = group_[body]->grid.nodes[point.brick];
+  for (int i = 0; i < 8; ++i) {
+    if (change[i] != 0) add_part(body, nodes[i], change[i], inverse_masses[body][nodes[i]], row);
   }
 }
 

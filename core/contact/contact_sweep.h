@@ -44,6 +44,9 @@ class ContactSweep {
   /// Adds the contacts that carried a load in the previous step, or those that must start to.
   void add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt,
                     bool are_loaded);
+  /// Lets the row act at one point of space, the second feature's: friction across the gap would turn the two bodies.
+  void move_together(NearFeatures& near, const AwakePair& pair, const std::vector<Eigen::VectorXd>& inverse_masses,
+                     Row& row);
   /// Returns whether a contact with the same other body carries a load at the node nearest to this one's point; if not
   /// `is_asked`, this one does from now on.
   [[nodiscard]] bool is_supported_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked);

@@ -54,6 +54,10 @@ class NearFeatures {
   [[nodiscard]] const Vec3& position(const AwakePair& pair, int corner) const {
     return tree_of(pair, corner).position_of(pair.pair.corners[corner]);
   }
+  /// A pair's corner, of a surface.
+  [[nodiscard]] const ContactPoint& point_of(const AwakePair& pair, int corner) const {
+    return tree_of(pair, corner).skin().points[pair.pair.corners[corner]];
+  }
   /// The node that carries most of a pair's first corner.
   [[nodiscard]] int nearest_node(const AwakePair& pair) const;
   /// Calls visit(body, node, weight) for all nodes that carry a corner, none for an obstacle without edges.
@@ -73,9 +77,6 @@ class NearFeatures {
   [[nodiscard]] SurfaceTree& tree_of(const AwakePair& pair, int corner) const {
     const std::size_t row = pair.body_of(corner);
     return pair.bodies[1] == AwakePair::kNoBody ? *surfaces_.outlines[row] : *surfaces_.trees[row];
-  }
-  [[nodiscard]] const ContactPoint& point_of(const AwakePair& pair, int corner) const {
-    return tree_of(pair, corner).skin().points[pair.pair.corners[corner]];
   }
   template <class Visit>
   void each_tree(const Visit& visit) const {

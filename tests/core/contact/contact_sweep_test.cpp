@@ -77,9 +77,12 @@ TEST(ContactSweep, FrictionHoldsUpToItsAngle) {
   }
 }
 
-/// Without damping, friction and gravity, two blocks meet off centre: their total momenta are conserved, and energy
-/// only decreases.
-TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
+class CollisionOfBlocks : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Friction, CollisionOfBlocks, testing::Values(0.0, 0.5));
+
+/// Without damping and gravity, two blocks meet off centre: their total momenta are conserved, and energy only
+/// decreases. Friction acts at one point of space, not across the gap.
+TEST_P(CollisionOfBlocks, KeepsMomentaAndGivesNoEnergy) {
   World world;
   world.gravity.setZero();
   for (int i = 0; i < 2; ++i) {
@@ -87,7 +90,8 @@ TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
         touching_box({3, 3, 3}, kBrick, test_material(0.3, 1e6), Vec3(0.07 * i, 0.03 * i, 0.01 * i)));
     world.bodies[i].velocities.col(0).setConstant(i == 0 ? 0.5 : -0.5);
     world.bodies[i].damping = {};
-    world.bodies[i].contact.friction = 0;
+    world.bodies[i].contact.friction = GetParam();
+    world.bodies[i].velocities.col(2).setConstant(i == 0 ? 0.2 : -0.2);
   }
   const auto momentum = [&] { return Vec3(linear_momentum(world.bodies[0]) + linear_momentum(world.bodies[1])); };
   const auto turning = [&] { return Vec3(angular_momentum(world.bodies[0]) + angular_momentum(world.bodies[1])); };

@@ -50,8 +50,8 @@ void run(World& world, double duration, double fps = 50) {
   }
 }
 
-/// Two cubes fly into each other a little off centre, turned so that an edge meets a face. Friction acts across the gap
-/// that contact leaves, which is a moment.
+/// Two cubes fly into each other a little off centre, turned so that an edge meets a face. Without friction they slide,
+/// and the guard against crossings acts on corners of their features, which turns them a little.
 class CollisionWith : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Friction, CollisionWith, testing::Values(0.0, 0.5));
 
@@ -71,7 +71,7 @@ TEST_P(CollisionWith, FrictionKeepsMomentumAndMakesNoEnergy) {
   run(world, 0.3);
   const double scale = world.bodies[0].masses.sum();
   EXPECT_LT((momentum_of(world) - momentum).norm(), 1e-9 * momentum.norm());
-  EXPECT_LT((angular_momentum_of(world) - turning).norm(), (GetParam() == 0 ? 3e-4 : 2e-3) * scale * 0.1);
+  EXPECT_LT((angular_momentum_of(world) - turning).norm(), (GetParam() == 0 ? 3e-4 : 1e-9) * scale * 0.1);
   EXPECT_LT(total_energy(world), before * (1 + 1e-6));
   EXPECT_LT(centre_of(world.bodies[0]).x(), centre_of(world.bodies[1]).x());
   EXPECT_LT(linear_momentum(world.bodies[0]).x() / scale, 0.5);  // it has been stopped
