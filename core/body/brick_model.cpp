@@ -147,29 +147,34 @@ class HexahedronModel : public BrickModel {
   }
 };
 
+SolidBrick solid_brick(const Body& body, std::size_t brick) {
+  const auto& [moments, curved] = body.solids[brick];
+  return {body.material, body.grid.brick_size, body.grid.fill[brick], moments, *curved};
+}
+
 /// Bricks with the moments of their solid.
 class SolidModel : public BrickModel {
  public:
   [[nodiscard]] double energy(const Body& body, std::size_t brick, const BrickVector& x) const override {
-    return region_factor(body, brick) * brick_of(body, brick).energy(x);
+    return region_factor(body, brick) * solid_brick(body, brick).energy(x);
   }
 
   [[nodiscard]] BrickVector forces(const Body& body, std::size_t brick, const BrickVector& x) const override {
-    return region_factor(body, brick) * brick_of(body, brick).forces(x);
+    return region_factor(body, brick) * solid_brick(body, brick).forces(x);
   }
 
   [[nodiscard]] BrickMatrix hessian(const Body& body, std::size_t brick, const BrickVector& x,
                                     bool definite) const override {
-    return region_factor(body, brick) * brick_of(body, brick).hessian(x, definite);
+    return region_factor(body, brick) * solid_brick(body, brick).hessian(x, definite);
   }
 
   [[nodiscard]] BrickMatrix damping(const Body& body, std::size_t brick, const BrickVector& x) const override {
-    return region_factor(body, brick) * brick_of(body, brick).damping(x);
+    return region_factor(body, brick) * solid_brick(body, brick).damping(x);
   }
 
   [[nodiscard]] BrickVector damping_product(const Body& body, std::size_t brick, const BrickVector& x,
                                             const BrickVector& v) const override {
-    return region_factor(body, brick) * brick_of(body, brick).damping_product(x, v);
+    return region_factor(body, brick) * solid_brick(body, brick).damping_product(x, v);
   }
 
   [[nodiscard]] BrickMatrix full_brick_hessian(const Body& body) const override {
@@ -178,7 +183,7 @@ class SolidModel : public BrickModel {
   }
 
   [[nodiscard]] Mat3 gradient(const Body& body, std::size_t brick, const BrickVector& x) const override {
-    return brick_of(body, brick).gradient(x);
+    return solid_brick(body, brick).gradient(x);
   }
 
   [[nodiscard]] Vec3 middle(const Body& body, std::size_t brick) const override {
@@ -191,15 +196,13 @@ class SolidModel : public BrickModel {
     if (gradient.determinant() < kFlat) return BrickModel::second_stress(body, gradient, young);
     return young / body.material.young * gradient.inverse() * StrainEnergy(body.material).stress(gradient);
   }
-
- private:
-  static SolidBrick brick_of(const Body& body, std::size_t brick) {
-    const auto& [moments, curved] = body.solids[brick];
-    return {body.material, body.grid.brick_size, body.grid.fill[brick], moments, *curved};
-  }
 };
 
 }  // namespace
+
+BrickVector volume_rates(const Body& body, std::size_t brick) {
+  return solid_brick(body, brick).volume_rates(at_corners(body, brick, body.positions));
+}
 
 const BrickModel& brick_model(Model model) {
   static const SpringModel springs;

@@ -48,6 +48,10 @@ class BrickModel {
 /// How solids of the model are filled with bricks.
 [[nodiscard]] BricksFor bricks_for(Model model);
 
+/// The derivatives of the determinant of a brick's deformation gradient by its corners, 1/m, at the body's current
+/// positions. Model kCalibrated only.
+[[nodiscard]] BrickVector volume_rates(const Body& body, std::size_t brick);
+
 /// The ratio of a brick's material stiffness to the body's, due to regions.
 [[nodiscard]] double region_factor(const Body& body, std::size_t brick);
 

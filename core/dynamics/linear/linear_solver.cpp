@@ -57,7 +57,7 @@ bool is_small(const Body& body) {
 std::unique_ptr<LinearSolver> make_robust_solver(const Body& body) {
   if (body.grid.brick_count() <= kManyBricks) return make_direct_solver();
   constexpr int kPatience = 2000;
-  return make_multigrid_solver(kPatience);
+  return make_mixed_solver(kPatience);
 }
 
 namespace {
@@ -101,7 +101,7 @@ class DefaultSolver : public LinearSolver {
   [[nodiscard]] LinearSolver& now() const { return is_direct_ ? *direct_ : *multigrid_; }
 
   std::unique_ptr<LinearSolver> direct_ = make_direct_solver();
-  std::unique_ptr<LinearSolver> multigrid_ = make_multigrid_solver();
+  std::unique_ptr<LinearSolver> multigrid_ = make_mixed_solver();
   const Body* body_ = nullptr;
   const Supports* supports_ = nullptr;
   const StepTerms* terms_ = nullptr;

@@ -3,14 +3,17 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "core/body/brick_hessian.h"
 #include "core/body/brick_model.h"
 #include "core/body/forces.h"
 #include "core/body/solid_tiles.h"
 #include "core/dynamics/linear/linear_solver.h"
+#include "core/dynamics/linear/mixed_solve.h"
 #include "core/dynamics/linear/multigrid_level.h"
 #include "core/dynamics/linear/stiffness.h"
+#include "core/dynamics/linear/volume_pressures.h"
 
 namespace sprung {
 namespace {
@@ -61,7 +64,8 @@ bool bends_downward(const BrickMatrix& matrix) {
 
 class MultigridSolver : public IterativeSolver {
  public:
-  explicit MultigridSolver(int max_iterations) : max_iterations_(max_iterations) {}
+  MultigridSolver(int max_iterations, bool may_be_mixed)
+      : max_iterations_(max_iterations), may_be_mixed_(may_be_mixed) {}
 
   bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
     body_ = &body;
@@ -76,8 +80,13 @@ class MultigridSolver : public IterativeSolver {
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }
     fixed_ = supports.fixed;
-    fill_finest();
-    return cycle_->prepare(smoothing_steps(body), fastest_of_brick());
+    volumes_.reset();
+    if (may_be_mixed_ && !definite && VolumePressures::help(body)) {
+      volumes_.emplace(body, fixed_, 1 + terms.damping);
+      if (prepare_cycle()) return true;
+      volumes_.reset();  // under great pressures the rest of the stiffness may be indefinite where all of it is not
+    }
+    return prepare_cycle();
   }
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override;
@@ -89,9 +98,15 @@ class MultigridSolver : public IterativeSolver {
   [[nodiscard]] SolveReport report() const override { return report_; }
 
  private:
+  /// False if the coarsest level's matrix is not positive definite.
+  [[nodiscard]] bool prepare_cycle() {
+    fill_finest();
+    return cycle_->prepare(smoothing_steps(*body_), fastest_of_brick());
+  }
   void fill_finest();
   void fill_block(int block, const EdgeCoupling& coupling);
   void fill_solids(int first, float* matrix) const;
+  void separate_volumes(int first, double* pack) const;
   [[nodiscard]] double fastest_of_brick() const;
   [[nodiscard]] bool is_peculiar(std::size_t brick) const;
   [[nodiscard]] bool needs_pull(int block) const;
@@ -100,6 +115,7 @@ class MultigridSolver : public IterativeSolver {
   void release_held(Eigen::VectorXd& vector) const;
 
   int max_iterations_;
+  bool may_be_mixed_;
   const Body* body_ = nullptr;
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
@@ -111,6 +127,7 @@ class MultigridSolver : public IterativeSolver {
   std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty if there are none at all
   ProductWorkspace products_;
   Eigen::VectorXd damping_product_;
+  std::optional<VolumePressures> volumes_;  // the matrices of the cycle are without them
   multigrid::Floats single_residual_;
   multigrid::Floats single_solution_;
   Eigen::VectorXd downhill_;
@@ -195,9 +212,25 @@ void MultigridSolver::fill_solids(int first, float* matrix) const {
   std::array<double, kAnchoredSize * kPackPadding> pack{};
   for (int lane = 0; lane < kLanes && first + lane < body_->grid.brick_count(); lane += kPackPadding) {
     solid_matrices(*body_, first + lane, pack.data());
+    for (double& entry : pack) entry *= 1 + terms_->damping;
+    if (volumes_) separate_volumes(first + lane, pack.data());
     for (std::size_t entry = 0; entry < kAnchoredSize; ++entry) {
       for (std::size_t i = 0; i < kPackPadding; ++i) {
-        matrix[entry * kLanes + lane + i] = float((1 + terms_->damping) * pack[entry * kPackPadding + i]);
+        matrix[entry * kLanes + lane + i] = float(pack[entry * kPackPadding + i]);
+      }
+    }
+  }
+}
+
+/// Takes the resistance of volumes out of a pack of matrices.
+void MultigridSolver::separate_volumes(int first, double* pack) const {
+  const int count = std::min(int(kPackPadding), body_->grid.brick_count() - first);
+  for (int lane = 0; lane < count; ++lane) {
+    const std::size_t brick = first + lane;
+    const auto rates = volumes_->rates(brick).tail<21>();
+    for (std::size_t a = 0; a < 21; ++a) {
+      for (std::size_t b = 0; b <= a; ++b) {
+        pack[anchored_index(a, b) * kPackPadding + lane] -= volumes_->stiffness(brick) * rates[a] * rates[b];
       }
     }
   }
@@ -206,6 +239,7 @@ void MultigridSolver::fill_solids(int first, float* matrix) const {
 /// The matrix of a brick with more than its springs, fixed degrees of freedom removed.
 BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
   BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick, definite_);
+  if (volumes_) matrix -= volumes_->stiffness(brick) * volumes_->rates(brick) * volumes_->rates(brick).transpose();
   if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
   if (!points_of_brick_.empty()) {
     for (const PointStiffness* point : points_of_brick_[brick]) add_point_stiffness(*point, matrix);
@@ -265,16 +299,23 @@ Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tol
   Eigen::VectorXd free = forces;
   release_held(free);
   downhill_.resize(0);
-  return conjugate_gradients(
-      free, {.tolerance = tolerance, .max_iterations = max_iterations_},
-      [&](const auto& x, auto& product) { multiply(x, product); },
-      [&](const auto& residual, auto& correction) { precondition(residual, correction); }, report_, &downhill_);
+  const StoppingCriterion end{.tolerance = tolerance, .max_iterations = max_iterations_};
+  const auto product_of = [&](const Eigen::VectorXd& x, Eigen::VectorXd& product) { multiply(x, product); };
+  const auto correct = [&](const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
+    precondition(residual, correction);
+  };
+  if (volumes_) return solve_mixed({*volumes_, product_of, correct}, free, end, report_, &downhill_);
+  return conjugate_gradients(free, end, product_of, correct, report_, &downhill_);
 }
 
 }  // namespace
 
 std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations) {
-  return std::make_unique<MultigridSolver>(max_iterations);
+  return std::make_unique<MultigridSolver>(max_iterations, false);
+}
+
+std::unique_ptr<LinearSolver> make_mixed_solver(int max_iterations) {
+  return std::make_unique<MultigridSolver>(max_iterations, true);
 }
 
 }  // namespace sprung

@@ -103,6 +103,11 @@ BrickVector SolidBrick::damping_product(const BrickVector& x, const BrickVector&
 
 Mat3 SolidBrick::gradient(const BrickVector& x) const { return deformation(x).gradient(); }
 
+BrickVector SolidBrick::volume_rates(const BrickVector& x) const {
+  const Deformation at = deformation(x);
+  return pull(x, at, cofactors(at.gradient()), Values::Zero()) / volume_;
+}
+
 BrickVector SolidBrick::pull(const BrickVector& x, const Deformation& at, const Mat3& stress,
                              const Values& besides) const {
   BrickVector pull = differences_.pull(x, besides + on_differences(at.secant.transpose() * stress));

@@ -39,6 +39,8 @@ class SolidBrick {
 
   /// The deformation gradient at the centroid of the solid, F (I + S z).
   [[nodiscard]] Mat3 gradient(const BrickVector& x) const;
+  /// The derivatives of its determinant by the corners, 1/m.
+  [[nodiscard]] BrickVector volume_rates(const BrickVector& x) const;
 
  private:
   using Values = StrainDifferences::Values;

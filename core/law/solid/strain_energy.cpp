@@ -33,13 +33,6 @@ struct VolumeEnergy {
   }
 };
 
-/// d det F / d F.
-Mat3 cofactors(const Mat3& f) {
-  Mat3 result;
-  result << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
-  return result;
-}
-
 Mat3 cross_product_matrix(const Vec3& v) {
   Mat3 m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -217,6 +210,12 @@ GradientMatrix principal_hessian(const HyperelasticTerms& terms, const Mat3& gra
 }
 
 }  // namespace
+
+Mat3 cofactors(const Mat3& f) {
+  Mat3 result;
+  result << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
+  return result;
+}
 
 double StrainEnergy::energy(const Mat3& gradient) const {
   if (terms_.kind == StrainEnergyKind::kOgden) {

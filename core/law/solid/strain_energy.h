@@ -46,4 +46,7 @@ class StrainEnergy {
   HyperelasticTerms terms_;
 };
 
+/// The derivative of det F.
+[[nodiscard]] Mat3 cofactors(const Mat3& f);
+
 }  // namespace sprung

@@ -10,61 +10,16 @@
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/bodies.h"
+#include "tests/support/linear_problems.h"
 
 namespace sprung {
 namespace {
 
+using test::bracket;
+using test::cantilever;
+using test::Problem;
+using test::solve;
 using test::test_material;
-
-/// A bracket with a slot, cut bricks and two materials: everything that a box is not.
-BrickGrid bracket(int n) {
-  BrickGrid grid;
-  grid.brick_size = 0.3 / n;
-  for (int z = 0; z < n / 3; ++z) {
-    for (int y = 0; y < n; ++y) {
-      for (int x = 0; x < n; ++x) {
-        const bool is_upright = x < n / 3;
-        const bool is_slot = y > n / 6 && x > 1 && z == n / 6;
-        if ((y < n / 3 || is_upright) && !is_slot) grid.cells.emplace_back(x - 3, y - 5, z);
-      }
-    }
-  }
-  for (const Eigen::Vector3i& cell : grid.cells) grid.fill.push_back(cell.y() == n - 6 ? 0.02 : 1.0);
-  number_nodes(grid);
-  return grid;
-}
-
-struct Problem {
-  Body body;
-  Supports supports;
-  StepTerms terms;
-  Eigen::VectorXd forces;
-
-  explicit Problem(BrickGrid grid, double poisson = 0.3, Model model = Model::kCalibrated)
-      : body(make_body(std::move(grid), model, test_material(poisson, 1e5))), supports(body.node_count()) {
-    const int low = body.grid.lattice.front().z();
-    for (int node = 0; node < body.node_count(); ++node) {
-      if (body.grid.lattice[node].z() == low) supports.fix(node);
-    }
-    forces = Eigen::VectorXd::Zero(3 * body.node_count());
-    for (int node = 0; node < body.node_count(); ++node) forces[3 * node + 1] = -9.81 * body.masses[node];
-  }
-};
-
-/// Clamped at its left end.
-Problem cantilever(int n, double poisson) {
-  Problem problem(make_box_grid({n, n / 4, n / 4}, 0.4 / n), poisson);
-  problem.supports = Supports(problem.body.node_count());
-  for (int node = 0; node < problem.body.node_count(); ++node) {
-    if (problem.body.grid.lattice[node].x() == 0) problem.supports.fix(node);
-  }
-  return problem;
-}
-
-Eigen::VectorXd solve(LinearSolver& system, const Problem& problem, double tolerance, bool definite = false) {
-  EXPECT_TRUE(system.linearize(problem.body, problem.supports, definite, problem.terms));
-  return system.solve(problem.forces, tolerance);
-}
 
 void expect_same(const Problem& problem, double error) {
   const auto direct = make_direct_solver();
@@ -179,13 +134,8 @@ TEST(Multigrid, ThinPartsAndTwoMaterialsTakeFewIterations) {
 
 /// Octopuses have thin arms, and bricks cut to slivers whose stiffness is negligible next to whole ones.
 TEST(Multigrid, CutBricksTakeFewIterations) {
-  const std::string name = SPRUNG_SOURCE_DIR "/assets/models/octopus.ply";
-  const SurfaceMesh mesh = read_mesh(name);
-  const Solid solid = find_solids(mesh, name).solids.at(0);
-  const double size = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
   for (const double poisson : {0.3, 0.45, 0.49}) {
-    BrickGrid grid = fill_solid(solid, size / 32, bricks_for(Model::kCalibrated)).grid;
-    Problem problem(std::move(grid), poisson, Model::kCalibrated);
+    const Problem problem(test::cut_bricks("octopus", 32), poisson);
     const auto multigrid = make_multigrid_solver();
     EXPECT_GT(solve(*multigrid, problem, 1e-6).size(), 0);
     EXPECT_LT(multigrid->report().iterations, 25) << poisson;

@@ -107,13 +107,14 @@ TEST(SolidBrick, AnswersUniformStrainAsItsMaterial) {
   }
 }
 
-TEST(SolidBrick, HasForcesAndHessianThatAreDerivatives) {
+TEST(SolidBrick, HasForcesVolumeRatesAndHessianThatAreDerivatives) {
   Random random(3);
   for (const double amount : {0.1, 0.4, 1.0}) {
     for (const double poisson : {0.0, 0.3, 0.49}) {
       const SolidBrick brick(test::test_material(poisson), kSide, 0.4, random_moments(random));
       const BrickVector x = shaken(amount, kSide, random);
       BrickVector slope;
+      BrickVector volume_slope;
       BrickMatrix change;
       const double step = 1e-6 * kSide;
       for (int i = 0; i < 24; ++i) {
@@ -122,9 +123,11 @@ TEST(SolidBrick, HasForcesAndHessianThatAreDerivatives) {
         high[i] += step;
         low[i] -= step;
         slope[i] = -(brick.energy(high) - brick.energy(low)) / (2 * step);
+        volume_slope[i] = (brick.gradient(high).determinant() - brick.gradient(low).determinant()) / (2 * step);
         change.col(i) = -(brick.forces(high) - brick.forces(low)) / (2 * step);
       }
       EXPECT_LT((brick.forces(x) - slope).norm(), 1e-7 * slope.norm());
+      EXPECT_LT((brick.volume_rates(x) - volume_slope).norm(), 1e-7 * volume_slope.norm());
       EXPECT_LT((brick.hessian(x, false) - change).norm(), 1e-7 * change.norm());
     }
   }
