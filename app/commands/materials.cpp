@@ -148,6 +148,9 @@ std::string sources(const LibraryMaterial& material) {
          source_line("young", readable(material.young, Dimension::kPressure), percent(material.young_uncertainty),
                      material.young_source) +
          source_line("poisson", fmt::format("{}", material.poisson), ratio, material.poisson_source) +
+         (material.poisson_in_motion ? source_line("in motions", fmt::format("{}", *material.poisson_in_motion), "",
+                                                   "less, since 0.499 takes 7 times the explicit steps of 0.45")
+                                     : "") +
          source_line("density", with_unit(material.density, Dimension::kDensity), percent(material.density_uncertainty),
                      material.density_source) +
          source_line("damping", fmt::format("{}", material.damping), percent(material.damping_uncertainty),
@@ -171,6 +174,7 @@ Json json_of(const LibraryMaterial& material) {
       {"about", material.about},
       {"young", figure(material.young, material.young * material.young_uncertainty, material.young_source)},
       {"poisson", figure(material.poisson, material.poisson_uncertainty, material.poisson_source)},
+      {"poisson_in_motion", material.poisson_in_motion ? Json(*material.poisson_in_motion) : Json()},
       {"density", figure(material.density, material.density * material.density_uncertainty, material.density_source)},
       {"damping", figure(material.damping, material.damping * material.damping_uncertainty, material.damping_source)},
       {"yield_strength",

@@ -69,9 +69,11 @@ class DictText {
     places_.emplace_back(text_.size(), path);
     if (py::isinstance<Material>(value)) {
       const auto& material = value.cast<const Material&>();
-      text_ += fmt::format("{{ young = {}, poisson = {}, density = {}, damping = {}, law = \"{}\"{} }}", material.young,
-                           material.poisson, material.density, material.damping, law_name(material.law.kind),
-                           parameters_text(material.law));
+      const std::string in_motion =
+          material.poisson_in_motion ? fmt::format(", poisson_in_motion = {}", *material.poisson_in_motion) : "";
+      text_ += fmt::format("{{ young = {}, poisson = {}{}, density = {}, damping = {}, law = \"{}\"{} }}",
+                           material.young, material.poisson, in_motion, material.density, material.damping,
+                           law_name(material.law.kind), parameters_text(material.law));
     } else if (py::isinstance<py::dict>(value)) {
       write_table(py::reinterpret_borrow<py::dict>(value), path);
     } else if (py::isinstance<py::bool_>(value)) {

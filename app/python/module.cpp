@@ -71,6 +71,7 @@ void bind_materials(py::module_& module) {
       .def_readonly("name", &Material::name, "The name it was given.")
       .def_readonly("young", &Material::young, "Young's modulus, Pa.")
       .def_readonly("poisson", &Material::poisson, "Poisson's ratio, 1.")
+      .def_readonly("poisson_in_motion", &Material::poisson_in_motion, "Poisson's ratio in motions, 1; None: the same.")
       .def_readonly("density", &Material::density, "Density, kg/m3.")
       .def_readonly("damping", &Material::damping, "Ratio of critical damping at the slowest vibration, 1.")
       .def_property_readonly(

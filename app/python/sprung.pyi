@@ -46,6 +46,9 @@ class Material:
     def poisson(self) -> float:
         """Poisson's ratio, 1."""
     @property
+    def poisson_in_motion(self) -> float | None:
+        """Poisson's ratio in motions, 1; None: the same."""
+    @property
     def density(self) -> float:
         """Density, kg/m3."""
     @property

@@ -21,6 +21,7 @@ Material LibraryMaterial::material() const {
           .density = density,
           .damping = damping,
           .source = young_source,
+          .poisson_in_motion = poisson_in_motion,
           .law = law};
 }
 

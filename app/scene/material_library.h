@@ -26,6 +26,7 @@ struct LibraryMaterial {
   double poisson = 0;
   double poisson_uncertainty = 0;  // of the ratio itself
   std::string poisson_source;
+  std::optional<double> poisson_in_motion;
   double density = 0;              // kg/m^3
   double density_uncertainty = 0;  // relative
   std::string density_source;

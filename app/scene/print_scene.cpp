@@ -21,7 +21,8 @@ constexpr bool kIsSection<std::vector<Row>> = !requires(Row row) {
 bool is_built_in(const Material& material) {
   const auto same = [&](const LibraryMaterial& known) {
     return known.name == material.name && known.young == material.young && known.poisson == material.poisson &&
-           known.density == material.density && known.damping == material.damping && known.law == material.law;
+           known.poisson_in_motion == material.poisson_in_motion && known.density == material.density &&
+           known.damping == material.damping && known.law == material.law;
   };
   const auto materials = built_in_materials()->materials();
   return std::any_of(materials.begin(), materials.end(), same);

@@ -121,6 +121,7 @@ void check_table(const SceneBody& body, const std::string& path, const Report& r
                          path, law_text(material.law), law_text(body.material.law)));
     }
     if (material.poisson == body.material.poisson) return;
+    if (material.in_motion().poisson == body.material.in_motion().poisson) return;
     report({"region", row}, fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials "
                                         "of one body may differ in stiffness and density only",
                                         path, material.poisson, body.material.poisson));

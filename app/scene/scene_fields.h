@@ -79,6 +79,10 @@ inline constexpr Range kPositive{.low = 0, .without_low = true};
 inline constexpr Range kNotNegative{.low = 0};
 inline constexpr Range kCounted{.low = 1};  // from 1
 inline constexpr Range kPoisson{-1, 0.5, true, true};
+inline const KeyInfo kPoissonInMotion{
+    "poisson_in_motion",
+    "Poisson's ratio in motions, whose explicit steps at 0.499 are a seventh of those at 0.45; default: poisson",
+    Dimension::kNone, kPoisson};
 inline constexpr Range kZoom{0.01, 100};
 inline constexpr int kSampleCounts[] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
@@ -353,6 +357,7 @@ void fields(auto& visit, Is<Material> auto& material) {
   visit.table("material", rules_of_curve());
   visit({"young", "Young's modulus", Dimension::kPressure, kPositive}, material.young);
   visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
+  visit(kPoissonInMotion, material.poisson_in_motion);
   visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
   visit({"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}},
         material.damping);
@@ -591,6 +596,7 @@ void fields(auto& visit, Is<LibraryMaterial> auto& material) {
   visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
   visit({"poisson_uncertainty", "uncertainty", Dimension::kNone, {0, 1}}, material.poisson_uncertainty);
   visit({"poisson_source", "source of the value"}, material.poisson_source);
+  visit(kPoissonInMotion, material.poisson_in_motion);
   visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
   visit({"density_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.density_uncertainty);
   visit({"density_source", "source of the value"}, material.density_source);

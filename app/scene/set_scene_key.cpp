@@ -80,6 +80,7 @@ void set_value(Material& material, const KeyInfo&, std::string_view rest, const 
     material = given.library.named(given.text);
     return;
   }
+  if (rest == "poisson") material.poisson_in_motion.reset();
   set_key(material, rest, given);
   material.name = "custom";
   material.source.clear();

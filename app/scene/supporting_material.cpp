@@ -98,8 +98,8 @@ std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Supp
   const double count = count_of_bricks(grids);
   const double coarser = std::max(1.0, std::cbrt(count / kManyBricks));
   if (coarser > 1) grids = filled(loaded, loaded.brick_size * coarser, body.model);
-  StandingBody standing(std::move(grids), body.model, reference.material(), support, body.pins, Selector(loaded),
-                        world_from_bricks.transpose() * gravity);
+  StandingBody standing(std::move(grids), body.model, reference.material().in_motion(), support, body.pins,
+                        Selector(loaded), world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.linear_displacement();
   if (!linear || *linear <= 0) return std::nullopt;
 

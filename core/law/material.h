@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/law/strain_energy_law.h"
@@ -14,9 +15,13 @@ struct Material {
   double density = 1000;  // kg/m^3, > 0
   double damping = 0.02;  // ratio of critical damping at the body's slowest vibration (see rayleigh_from_damping)
   std::string source;     // where the figures come from
-  StrainEnergyLaw law{};  // how it goes on at large strains
+  /// Poisson's ratio in motions, if not `poisson`: explicit steps of 0.499 are a seventh of those of 0.45.
+  std::optional<double> poisson_in_motion{};
+  StrainEnergyLaw law{};          // how it goes on at large strains
   std::filesystem::path curve{};  // absolute; of a tension test that `young` and `law` are fitted to, or empty
 
+  /// With the ratio of motions.
+  [[nodiscard]] Material in_motion() const;
   [[nodiscard]] double shear_modulus() const { return young / (2 * (1 + poisson)); }                          // G, Pa
   [[nodiscard]] double lame_lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  // Pa
 };

@@ -160,7 +160,8 @@ void BodyBuilder::add_solids() {
 
 BodyBuilder::FilledBody BodyBuilder::fill(std::size_t solid) {
   const Solid& outline = loaded_.solids[solid];
-  SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material, can_touch_);
+  SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model,
+                                 simulated_material(scene_, body_), can_touch_);
   body.contact.friction = body_.friction;
   body.contact.with_itself = body.contact.with_itself && collides_with_itself_;
   report_.add(body.drawn.embedding);
@@ -168,7 +169,7 @@ BodyBuilder::FilledBody BodyBuilder::fill(std::size_t solid) {
   origin.body = index_;
   carry_file_vertices(loaded_, solid, solid_of_vertex_, body.grid, origin);
   origin.bricks_from_rest = loaded_.bricks_from_rest;
-  origin.regions = apply_regions(body_.regions, selector_, body, solid);
+  origin.regions = apply_regions(body_, selector_, body, solid);
   origin.pins = find_pins(body, solid);
   origin.pinned_skins = find_pinned_skins(body_.pins, selector_, body, solid);
   origin.forces = place_forces(body_.forces, selector_, body, solid);

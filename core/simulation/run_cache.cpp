@@ -85,7 +85,7 @@ Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
     }
     const SceneBody& scene_body = scene.bodies[simulation.origins[row].body];
     SoftBody& body = simulation.world.bodies[row];
-    Body made = make_body(std::move(body.grid), scene_body.model, scene_body.material);
+    Body made = make_body(std::move(body.grid), scene_body.model, simulated_material(scene, scene_body));
     made.masses = std::move(body.masses);
     made.rest_positions = std::move(body.rest_positions);
     made.positions = std::move(body.positions);

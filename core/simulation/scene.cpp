@@ -19,6 +19,10 @@ bool is_motion(const Scene& scene) {
   return scheme != Solver::kStatic && scheme != Solver::kLinear && scheme != Solver::kModes;
 }
 
+Material simulated_material(const Scene& scene, const SceneBody& body) {
+  return is_motion(scene) ? body.material.in_motion() : body.material;
+}
+
 StrainMeasure strain_measure(const Scene& scene) {
   const Solver scheme = scene.solver.scheme;
   return scheme == Solver::kLinear || scheme == Solver::kModes ? StrainMeasure::kSmall : StrainMeasure::kFinite;

@@ -307,6 +307,8 @@ struct Scene {
 
 /// Returns whether the frames are a motion in time; else they are equilibria or vibration modes.
 [[nodiscard]] bool is_motion(const Scene& scene);
+/// What the bricks of a body are made of: with the ratio of motions in these.
+[[nodiscard]] Material simulated_material(const Scene& scene, const SceneBody& body);
 
 /// The strain measure of the results: displacements of linear statics and of modes are small.
 [[nodiscard]] StrainMeasure strain_measure(const Scene& scene);

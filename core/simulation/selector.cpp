@@ -258,7 +258,7 @@ void check_ratio(const Material& material, const Material& body) {
                             "and density only; give both the same law",
                             law_text(material.law), law_text(body.law)));
   }
-  if (material.poisson == body.poisson) return;
+  if (material.poisson == body.poisson || material.in_motion().poisson == body.in_motion().poisson) return;
   throw Error(ErrorKind::kBadInput,
               fmt::format("a region has the Poisson's ratio {}, its body {}: the materials of one body may differ in "
                           "stiffness and density only; give both the same ratio",
@@ -279,16 +279,16 @@ Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& posit
 
 }  // namespace
 
-std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
-                               std::size_t solid) {
+std::vector<int> apply_regions(const SceneBody& scene_body, const Selector& selector, Body& body, std::size_t solid) {
+  const std::vector<Region>& regions = scene_body.regions;
   std::vector<int> regions_of_bricks(body.grid.cells.size(), 0);
   if (regions.empty()) return regions_of_bricks;
   const Points middles = brick_middles(body.grid);
   std::vector<Stuff> filled(body.grid.cells.size());
   for (std::size_t row = 0; row < regions.size(); ++row) {
     const Region& region = regions[row];
-    check_ratio(region.material, body.material);
-    if (region.gradient) check_ratio(region.gradient->material, body.material);
+    check_ratio(region.material, scene_body.material);
+    if (region.gradient) check_ratio(region.gradient->material, scene_body.material);
     for (const int brick : selector.bricks(region, body.grid, solid)) {
       filled[brick] = stuff_at(region, selector, middles.row(brick));
       regions_of_bricks[brick] = int(row) + 1;

@@ -64,10 +64,9 @@ class Selector {
 /// n x 3, m, in the frame of the grid.
 [[nodiscard]] Points brick_middles(const BrickGrid& grid);
 
-/// Gives the bricks of the regions of a body their stiffness and mass; if regions overlap, the last one counts. The
-/// body is still where its grid is. Returns for each brick which region it is in, counted from 1; 0: in none. Throws
-/// Error(kBadInput) if a material has another Poisson's ratio than the body, and as Selector does.
-std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
-                               std::size_t solid);
+/// Gives the bricks of the regions of a scene's body their stiffness and mass; if regions overlap, the last one counts.
+/// The body is still where its grid is. Returns for each brick which region it is in, counted from 1; 0: in none.
+/// Throws Error(kBadInput) if a material has another Poisson's ratio than the body, and as Selector does.
+std::vector<int> apply_regions(const SceneBody& scene_body, const Selector& selector, Body& body, std::size_t solid);
 
 }  // namespace sprung

@@ -163,7 +163,7 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& 
 void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
   constexpr double kMost = 0.49;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const double poisson = scene.bodies[i].material.poisson;
+    const double poisson = simulated_material(scene, scene.bodies[i]).poisson;
     if (poisson <= kMost || !has_springs(scene.bodies[i].model)) continue;
     observer.warn(fmt::format(
         "{}: Poisson's ratio {:.6g}: bricks lock above {}, they bend too little; {} is nearly as hard to compress",

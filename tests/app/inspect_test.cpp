@@ -158,7 +158,8 @@ TEST_F(Inspect, TellsTheMaterialAndTheSizeThatWereChosenAsSimulateDoes) {
   const nlohmann::json made = nlohmann::json::parse(run.out);
   EXPECT_EQ(made["bodies"][0]["material"], seen["bodies"][0]["material"]);
   EXPECT_EQ(made["bodies"][0]["material"]["name"], "gelatin");
-  EXPECT_EQ(made["bodies"][0]["material"]["poisson"], 0.45);
+  EXPECT_EQ(made["bodies"][0]["material"]["poisson"], 0.499);
+  EXPECT_EQ(made["bodies"][0]["material"]["poisson_in_motion"], 0.45);
   EXPECT_EQ(made["bodies"][0]["size_m"], 0.2);
   EXPECT_EQ(made["bodies"][0]["mesh"], "cube.obj");
 }

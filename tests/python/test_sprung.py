@@ -47,6 +47,21 @@ class Materials(unittest.TestCase):
         self.assertIn("steel: 2.1e+11 Pa, 0.3, 7850 kg/m3", repr(sprung.material("steel")))
 
 
+class Materials(unittest.TestCase):
+    def test_motions_have_a_ratio_of_their_own(self):
+        gelatin = sprung.material("gelatin")
+        self.assertLess(gelatin.poisson_in_motion, gelatin.poisson)
+        self.assertIsNone(sprung.Material(1e4, 0.3, 1000).poisson_in_motion)
+        ends = []
+        for material in gelatin, "gelatin":
+            scene = {
+                "body": [{"box": [0.1, 0.1, 0.1], "bricks": 2, "material": material, "pin": [{"nearest": [0, 0, 0]}]}],
+                "duration": 0.1,
+            }
+            ends.append(sprung.simulate(scene).positions(1)[0])
+        np.testing.assert_array_equal(*ends)
+
+
 class Meshes(unittest.TestCase):
     def test_a_mesh_from_arrays_is_the_same_as_from_its_file(self):
         mesh = sprung.read_mesh(str(BEAM))

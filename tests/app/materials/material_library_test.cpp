@@ -25,7 +25,8 @@ TEST(MaterialLibrary, EveryFigureHasASourceAndAnUncertainty) {
   EXPECT_GE(built_in_materials()->materials().size(), 25U);
   for (const LibraryMaterial& material : built_in_materials()->materials()) {
     EXPECT_NO_THROW(check_material(material.material())) << material.name;
-    EXPECT_LE(material.poisson, 0.49) << material.name;  // beyond, bricks lock
+    EXPECT_LE(material.poisson, 0.499) << material.name;                        // beyond, statics take long,
+    EXPECT_LE(material.material().in_motion().poisson, 0.49) << material.name;  // and motions from here on
     EXPECT_FALSE(material.about.empty()) << material.name;
     for (const std::string& source :
          {material.young_source, material.poisson_source, material.density_source, material.damping_source}) {
