@@ -16,7 +16,7 @@ constexpr double kDownward = -1e-10;  // curvature relative to that along the di
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// The unknowns of the system, or a right side: `ratios` then times largest_forces(), so that all are forces.
+/// The unknowns of the system, or a right side: p then holds ratios times largest_forces(), so that all are forces.
 struct Mixed {
   Vector u;
   Vector p;

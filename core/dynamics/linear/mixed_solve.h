@@ -11,8 +11,8 @@ namespace sprung {
 ///   A u + G p = f,  G^T u - S^-1 p = 0
 struct MixedSystem {
   VolumePressures& volumes;
-  std::function<void(const Eigen::VectorXd& u, Eigen::VectorXd& forces)> multiply;        // K u
-  std::function<void(const Eigen::VectorXd& forces, Eigen::VectorXd& u)> precondition{};  // approximately A^-1
+  std::function<void(const Eigen::VectorXd& u, Eigen::VectorXd& forces)> multiply;      // K u
+  std::function<void(const Eigen::VectorXd& forces, Eigen::VectorXd& u)> precondition;  // approximately A^-1
 };
 
 /// Solves it by flexible GMRES (Saad, SIAM J. Sci. Comput. 14, 1993), preconditioned by the upper triangle of the
