@@ -64,6 +64,20 @@ inline Problem cantilever(int n, double poisson) {
   return problem;
 }
 
+/// With its nodes moved by up to `amount` bricks, and all terms of a step.
+inline Problem shaken_bracket(double poisson, double amount, double mass_factor) {
+  std::mt19937 random(4);
+  Problem problem(bracket(12), poisson);
+  shake(problem.body, amount, random);
+  problem.terms.mass_factor = mass_factor;
+  problem.terms.damping = 0.7;
+  problem.terms.damping_positions = problem.body.rest_positions;
+  PointStiffness point{.brick = 40, .weights = CornerWeights::Constant(0.125)};
+  point.stiffness = 1e3 * Mat3::Identity();
+  problem.terms.points.push_back(point);
+  return problem;
+}
+
 inline Eigen::VectorXd solve(LinearSolver& system, const Problem& problem, double tolerance, bool definite = false) {
   EXPECT_TRUE(system.linearize(problem.body, problem.supports, definite, problem.terms));
   return system.solve(problem.forces, tolerance);

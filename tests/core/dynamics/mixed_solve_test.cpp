@@ -37,16 +37,7 @@ TEST(MixedSolve, EqualsTheDirectSolver) {
 }
 
 TEST(MixedSolve, EqualsTheDirectSolverFarFromRest) {
-  std::mt19937 random(4);
-  Problem problem(bracket(12), kNearlyIncompressible);
-  test::shake(problem.body, 0.03, random);
-  problem.terms.mass_factor = 1e8;
-  problem.terms.damping = 0.7;
-  problem.terms.damping_positions = problem.body.rest_positions;
-  PointStiffness point{.brick = 40, .weights = CornerWeights::Constant(0.125)};
-  point.stiffness = 1e3 * Mat3::Identity();
-  problem.terms.points.push_back(point);
-  expect_same_as_direct(problem);
+  expect_same_as_direct(test::shaken_bracket(kNearlyIncompressible, 0.03, 1e8));
 }
 
 /// Fewer than half of those that conjugate gradients take, and at a ratio of 0.499 as few as any other body.

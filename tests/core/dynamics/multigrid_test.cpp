@@ -42,15 +42,7 @@ TEST(Multigrid, EqualsTheDirectSolver) {
 }
 
 TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
-  std::mt19937 random(4);
-  Problem problem(bracket(12));
-  test::shake(problem.body, 0.1, random);
-  problem.terms.mass_factor = 1e4;
-  problem.terms.damping = 0.7;
-  problem.terms.damping_positions = problem.body.rest_positions;
-  PointStiffness point{.brick = 40, .weights = CornerWeights::Constant(0.125)};
-  point.stiffness = 1e3 * Mat3::Identity();
-  problem.terms.points.push_back(point);
+  Problem problem = test::shaken_bracket(0.3, 0.1, 1e4);
   // Half inverted.
   const auto& nodes = problem.body.grid.nodes[60];
   for (const int corner : {1, 3, 5, 7}) {
