@@ -104,7 +104,7 @@ double brick_stress(Model model, double poisson, const Mat3& gradient, const Eig
 }
 
 /// Nominal principal stress over E of the neo-Hookean solid of this model along the first axis; the stretches of free
-/// axes, which are one and the same, make their stresses zero. Below a volume ratio of 0.1 its pressure is linear in J.
+/// axes, which are one and the same, make their stresses zero.
 double closed_form_stress(double poisson, Vec3& stretches, const Eigen::Array<bool, 3, 1>& free) {
   const Material material = light_material(1, poisson);
   const double shear = material.shear_modulus();
@@ -112,8 +112,7 @@ double closed_form_stress(double poisson, Vec3& stretches, const Eigen::Array<bo
   const auto stress = [&](int axis) {
     const double s = stretches[axis];
     const double volume = stretches.prod();
-    const double slope = volume >= 0.1 ? 1 / volume : 20 - 100 * volume;  // of log J, and of its parabola
-    return shear * s + (lambda * (volume - 1) - shear * slope) * volume / s;
+    return shear * s + (lambda * (volume - 1) - shear / volume) * volume / s;
   };
   double low = 0.1;
   double high = 10;

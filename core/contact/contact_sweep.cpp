@@ -56,6 +56,12 @@ ContactSweep::ContactSweep(Group group, std::vector<GluedPoint> glue)
   }
 }
 
+double ContactSweep::volume_of_flattest() const {
+  double smallest = 1;
+  for (const InversionGuard& one : inversions_) smallest = std::min(smallest, one.volume_of_flattest());
+  return smallest;
+}
+
 void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
   for (std::size_t row = 0; row < group_.size(); ++row) {
     SoftBody& body = *group_[row];

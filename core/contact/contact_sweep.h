@@ -21,6 +21,9 @@ class ContactSweep {
   /// 1/kg, 0 for pinned nodes; `gravity` in m/s^2, its magnitude. Returns the number of contacts that carry a load.
   int apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt);
 
+  /// See InversionGuard; of all bodies.
+  [[nodiscard]] double volume_of_flattest() const;
+
  private:
   /// A node's contribution to a contact.
   struct Part {

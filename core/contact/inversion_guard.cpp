@@ -12,7 +12,8 @@
 namespace sprung {
 namespace {
 
-constexpr int kStepsBetweenLooks = 8;
+constexpr int kStepsBetweenLooks = 8;       // at most
+constexpr double kMoveBetweenLooks = 0.25;  // of a brick: what meets an obstacle may lose as much in a few steps
 constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kUnfoldSteps = 20;  // a brick found too flat or inverted recovers within about this many steps
@@ -70,10 +71,13 @@ void InversionGuard::look(const Body& body, double dt) {
 const std::vector<InversionRate>& InversionGuard::find(const Body& body, double dt) {
   if (to_look_.is_due()) {
     look(body, dt);
-    to_look_.restart(kStepsBetweenLooks);
+    const double move = largest_speed(body) * dt / body.grid.brick_size;
+    const bool is_fast = move * kStepsBetweenLooks > kMoveBetweenLooks;  // not if it is not a number
+    to_look_.restart(is_fast ? std::max(1, int(kMoveBetweenLooks / move)) : kStepsBetweenLooks);
   }
   to_look_.tick();
   found_.clear();
+  volume_of_flattest_ = 1;
   const double volume = body.grid.brick_volume();
   const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
   for (const int brick : suspects_) {
@@ -83,8 +87,12 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
     for (int corner = 0; corner <= InversionRate::kMeanAxes; ++corner) {
       const Mat3 edges = edges_at(corner, x);
       const Mat3 areas = areas_of(edges) / volume;
-      const double deficit = kMinVolume - edges.col(0).dot(areas.col(0));
+      const double volume_ratio = edges.col(0).dot(areas.col(0));
+      const double deficit = kMinVolume - volume_ratio;
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
+      if (corner == InversionRate::kMeanAxes) {
+        volume_of_flattest_ = std::min(volume_of_flattest_, volume_ratio + dt * std::min(rate, 0.0));
+      }
       const double recovery = std::min(deficit / kUnfoldSteps, fastest * areas.norm());
       const double min_rate = (deficit > 0 ? recovery : deficit) / dt;
       if (!(rate < min_rate)) continue;  // nor if a number is not finite

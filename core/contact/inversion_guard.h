@@ -31,6 +31,9 @@ class InversionGuard {
  public:
   /// The bricks that a step of dt would compress too far; call once per step.
   [[nodiscard]] const std::vector<InversionRate>& find(const Body& body, double dt);
+  /// The smallest volume ratio between the mean axes of a brick after the step of the last find(), at the velocities it
+  /// had; 1 if none is nearly flat.
+  [[nodiscard]] double volume_of_flattest() const { return volume_of_flattest_; }
 
  private:
   void look(const Body& body, double dt);
@@ -39,6 +42,7 @@ class InversionGuard {
   std::vector<int> suspects_;     // bricks
   std::vector<InversionRate> found_;
   Countdown to_look_;
+  double volume_of_flattest_ = 1;
 };
 
 }  // namespace sprung

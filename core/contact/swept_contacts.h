@@ -37,6 +37,9 @@ class SweptContacts {
     near_.end_step(dt);
   }
 
+  /// See InversionGuard; of all bodies.
+  [[nodiscard]] double volume_of_flattest() const { return sweep_.volume_of_flattest(); }
+
   void count_springs(double seconds) { report_.springs += seconds; }
   [[nodiscard]] StepReport report() const {
     StepReport report = report_;

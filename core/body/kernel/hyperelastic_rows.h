@@ -40,9 +40,10 @@ struct OfVolume {
                                                                const Pack& volume) {
   const Pack lowest(kLowestVolume);
   const Pack per_volume = 1.0 / simd::max(volume, lowest);
-  const Pack below = simd::min(volume - lowest, Pack(0.0)) * (1 / kLowestVolume);
-  Pack slope = log_volume * (below - 1.0) * per_volume;
-  Pack curvature = log_volume * per_volume * per_volume;
+  const Pack below = simd::max(1.0 - volume * (1 / kLowestVolume), Pack(0.0));
+  const Pack partly = simd::min(below, Pack(1.0));
+  Pack slope = -log_volume * (1.0 + below + kCollapseStiffening * partly * (below - 0.5 * partly)) * per_volume;
+  Pack curvature = log_volume * (1.0 + kCollapseStiffening * partly) * per_volume * per_volume;
   const Pack u = volume - 1.0;
   if (square_volume >= 0) {
     slope += square_volume * u;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
@@ -131,23 +132,31 @@ void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
   contacts_.begin_frame(world_, bodies);
 }
 
-std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,
-                                                const Between& between) {
+std::optional<Diverged> AdaptiveIntegrator::run(std::span<GroupSteps> groups, double time, const Between& between) {
   long chunks = std::numeric_limits<long>::max();
   for (const GroupSteps& group : groups) chunks = std::min(chunks, group.steps.count);
   chunks = std::clamp(long(std::ceil(brick_steps_of(world_, groups) / kBrickStepsBetween)), 1L, chunks);
   std::vector<GroupSteps> chunk(groups.begin(), groups.end());
+  std::vector<Steps> planned;
+  for (GroupSteps& group : groups) planned.push_back(std::exchange(group.steps, {.count = 0, .dt = group.steps.dt}));
   for (long done = 0; done < chunks; ++done) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      const Steps& all = groups[i].steps;
+      const Steps& all = planned[i];
       const long first = all.count * done / chunks;
-      chunk[i].steps.count = all.count * (done + 1) / chunks - first;
+      const long count = all.count * (done + 1) / chunks - first;
+      const double longer = all.dt / groups[i].steps.dt;
+      const long needed = long(std::ceil(double(count) * longer));
+      chunk[i].steps = {.count = needed, .dt = all.dt * double(count) / double(needed)};
       chunk[i].elapsed = all.dt * double(first);
     }
     try {
       advance(world_, scheme_, chunk, time, contacts_);
     } catch (const Diverged& error) {
       return error;
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      groups[i].steps.count += chunk[i].steps.count;
+      groups[i].steps.dt = std::min(groups[i].steps.dt, chunk[i].steps.dt);
     }
     between(double(done + 1) / double(chunks));
   }
@@ -164,6 +173,7 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     std::vector<GroupSteps> groups = stable;
     for (GroupSteps& group : groups) {
       group.steps = {group.steps.count * parts, group.steps.dt / double(parts)};
+      group.share = 1 / double(parts);
     }
     begin_contacts(groups);
     const std::optional<Diverged> end = run(groups, time, between);

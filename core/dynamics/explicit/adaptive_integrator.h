@@ -44,8 +44,8 @@ class AdaptiveIntegrator {
 
  private:
   void begin_contacts(std::span<const GroupSteps> groups);
-  /// None if it finished with finite positions.
-  std::optional<Diverged> run(std::span<const GroupSteps> groups, double time, const Between& between);
+  /// None if it finished with finite positions. Returns in `groups` the steps that were taken.
+  std::optional<Diverged> run(std::span<GroupSteps> groups, double time, const Between& between);
 
   World& world_;
   Scheme scheme_;

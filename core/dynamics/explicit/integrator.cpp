@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/body/body.h"
@@ -151,14 +152,20 @@ Eigen::VectorXd inverse_masses_of(const SoftBody& body) {
   return inverse_masses;
 }
 
+/// The fastest vibration of a brick that is being flattened grows at least as one over its volume: it is looked at anew
+/// whenever a brick below kFlat has lost a fifth of what it had.
+constexpr double kFlat = 0.5;
+constexpr double kFlattening = 0.8;
+constexpr double kMaxShortening = 100;  // of a step, at a time: a brick that is flat vibrates that much faster
+
 /// Bodies that touch each other, during a number of steps.
 class GroupStepper {
  public:
-  GroupStepper(World& world, const GroupSteps& group, const ContactStates& states)
-      : world_(world), elapsed_(group.elapsed), contacts_(states.of(group.bodies)) {
-    for (const std::size_t i : group.bodies) {
+  GroupStepper(World& world, const std::vector<std::size_t>& bodies, double elapsed, const ContactStates& states)
+      : world_(world), elapsed_(elapsed), contacts_(states.of(bodies)) {
+    for (const std::size_t i : bodies) {
       inverse_masses_.push_back(inverse_masses_of(world.bodies[i]));
-      steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world, group.elapsed));
+      steppers_.push_back(std::make_unique<BodyStepper>(world.bodies[i], world, elapsed));
     }
   }
 
@@ -171,7 +178,13 @@ class GroupStepper {
   void apply_contact(double dt) {
     contacts_.apply(world_, inverse_masses_, elapsed_, dt);
     elapsed_ += dt;
+    const double volume = contacts_.volume_of_flattest();
+    if (!volume_of_flattest_) volume_of_flattest_ = volume;
+    is_stiffer_ = volume < kFlattening * std::min(*volume_of_flattest_, kFlat);
   }
+
+  /// Whether bricks have been flattened so much since the first step that it may have become too long.
+  [[nodiscard]] bool is_stiffer() const { return is_stiffer_; }
 
   void drift(double dt) {
     for (const auto& stepper : steppers_) stepper->drift(dt);
@@ -197,6 +210,8 @@ class GroupStepper {
   std::vector<std::unique_ptr<BodyStepper>> steppers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
   SweptContacts& contacts_;
+  std::optional<double> volume_of_flattest_;  // at the first step
+  bool is_stiffer_ = false;
 };
 
 void check_finite(const World& world, double time) {
@@ -208,47 +223,75 @@ void check_finite(const World& world, double time) {
   }
 }
 
-/// v += dt a; x += dt v. First order, symplectic.
-void euler(GroupStepper& stepper, double dt, long steps) {
-  for (long step = 0; step < steps; ++step) {
+/// v += dt a; x += dt v. First order, symplectic. Returns the number of steps taken: fewer where bricks were flattened.
+long euler(GroupStepper& stepper, double dt, long steps) {
+  long step = 0;
+  while (step < steps && !stepper.is_stiffer()) {
     stepper.kick(dt, dt);
     stepper.apply_contact(dt);
     stepper.drift(dt);
+    ++step;
   }
+  return step;
 }
 
 /// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
-void verlet(GroupStepper& stepper, double dt, long steps) {
-  for (long step = 0; step < steps; ++step) {
+/// Returns the number of steps likewise.
+long verlet(GroupStepper& stepper, double dt, long steps) {
+  long step = 0;
+  while (step < steps && !stepper.is_stiffer()) {
     stepper.kick(step == 0 ? dt / 2 : dt, dt);
     stepper.apply_contact(dt);
     stepper.drift(dt);
+    ++step;
   }
-  if (steps > 0) stepper.kick(dt / 2, dt);
+  if (step > 0) stepper.kick(dt / 2, dt);
+  return step;
+}
+
+/// s; see GroupSteps.
+double stable_step(const World& world, const GroupSteps& group) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const std::size_t row : group.bodies) step = std::min(step, stable_step(world.bodies[row]));
+  return group.share * step;
+}
+
+void advance_group(World& world, Scheme scheme, GroupSteps& group, const ContactStates& states) {
+  Steps planned = group.steps;
+  Steps all{.count = 0, .dt = planned.dt};
+  double elapsed = group.elapsed;
+  while (planned.count > 0) {
+    GroupStepper stepper(world, group.bodies, elapsed, states);
+    const long taken = (scheme == Scheme::kVerlet ? verlet : euler)(stepper, planned.dt, planned.count);
+    stepper.finish();
+    elapsed += double(taken) * planned.dt;
+    all.count += taken;
+    planned.count -= taken;
+    if (planned.count == 0) break;
+    const double longer = planned.dt / stable_step(world, group);
+    if (!(longer > 1)) continue;  // nor where a number is not finite
+    const double left = double(planned.count) * planned.dt;
+    planned.count = long(std::ceil(double(planned.count) * std::min(longer, kMaxShortening)));
+    planned.dt = left / double(planned.count);
+    all.dt = std::min(all.dt, planned.dt);
+  }
+  group.steps = all;
 }
 
 }  // namespace
 
-void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
-             const ContactStates& states) {
-  const auto advance_group = [&](const GroupSteps& group) {
-    GroupStepper stepper(world, group, states);
-    if (scheme == Scheme::kVerlet) {
-      verlet(stepper, group.steps.dt, group.steps.count);
-    } else {
-      euler(stepper, group.steps.dt, group.steps.count);
-    }
-    stepper.finish();
-  };
+void advance(World& world, Scheme scheme, std::span<GroupSteps> groups, double time, const ContactStates& states) {
+  const double end = groups.empty() ? time : time + groups[0].steps.dt * double(groups[0].steps.count);
   // A thread that waits within one group's steps must not begin another group's: the first would stand still.
   try {
-    tbb::parallel_for(std::size_t{0}, groups.size(),
-                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t i) {
+      tbb::this_task_arena::isolate([&] { advance_group(world, scheme, groups[i], states); });
+    });
   } catch (const Diverged&) {
     check_finite(world, time);
     throw;
   }
-  if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * double(groups[0].steps.count));
+  if (!groups.empty()) check_finite(world, end);
 }
 
 void advance(World& world, Scheme scheme, double dt, long steps, double time) {
@@ -256,10 +299,11 @@ void advance(World& world, Scheme scheme, double dt, long steps, double time) {
   const std::vector<std::vector<std::size_t>> bodies = contact_groups(world, duration);
   ContactStates states;
   states.begin_frame(world, bodies);
+  constexpr double kAnyStep = std::numeric_limits<double>::infinity();
   std::vector<GroupSteps> groups;
   groups.reserve(bodies.size());
   for (const std::vector<std::size_t>& rows : bodies) {
-    groups.push_back({.bodies = rows, .steps = {.count = steps, .dt = dt}});
+    groups.push_back({.bodies = rows, .steps = {.count = steps, .dt = dt}, .share = kAnyStep});
   }
   advance(world, scheme, groups, time, states);
   move_prescribed(world, duration);

@@ -41,13 +41,15 @@ struct GroupSteps {
   std::vector<std::size_t> bodies;  // rows of World::bodies
   Steps steps;
   double elapsed = 0;  // s, since obstacles had the world's poses
+  double share = 1;    // of stable_step(), where bricks that are being flattened make it shorter than planned
 };
 
 /// Moves each group of bodies by its own steps, all at once: only those of one group touch each other. Obstacles keep
-/// the world's poses: the caller must move them. Deterministic for any number of threads. Throws Diverged with the body
-/// if a position is no longer finite, or a node moves by bricks against its body in a step. `states`: of these groups,
-/// in this frame.
-void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time, const ContactStates& states);
+/// the world's poses: the caller must move them. Where bricks are being flattened, and so stiffer from step to step,
+/// the steps of their group become shorter: `groups` returns their number and the shortest. Deterministic for any
+/// number of threads. Throws Diverged with the body if a position is no longer finite, or a node moves by bricks
+/// against its body in a step. `states`: of these groups, in this frame.
+void advance(World& world, Scheme scheme, std::span<GroupSteps> groups, double time, const ContactStates& states);
 
 /// The same with `steps` steps of `dt` seconds for all, and the search for contacts started afresh; moves the obstacles
 /// too.

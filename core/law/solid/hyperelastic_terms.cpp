@@ -52,9 +52,11 @@ Stiffening::Stiffening(double per_energy, double plain) {
 
 double volume_energy(double log_volume, double square_volume, double ratio) {
   const double at = std::max(ratio, kLowestVolume);
-  const double below = std::min(ratio - kLowestVolume, 0.0) / kLowestVolume;
+  const double below = std::max(1 - ratio / kLowestVolume, 0.0);
+  const double partly = std::min(below, 1.0);
+  const double cubic = kCollapseStiffening / 2 * partly * (below * (below - partly) + partly * partly / 3);
   const double square = (ratio - 1) * (ratio - 1);
-  return -log_volume * (std::log(at) + below - 0.5 * below * below) +
+  return -log_volume * (std::log(at) - below - 0.5 * below * below - cubic) +
          0.5 * square_volume * (square_volume < 0 ? square / (1 + square) : square);
 }
 

@@ -6,8 +6,10 @@
 
 namespace sprung {
 
-/// The volume ratio below which log J of a StrainEnergy continues as a parabola.
-inline constexpr double kLowestVolume = 0.1;
+/// The volume ratio below which log J of a StrainEnergy continues as a cubic, see volume_energy().
+inline constexpr double kLowestVolume = 0.08;
+/// By how many times its curvature there the curvature has grown at J = 0, below which it is constant.
+inline constexpr double kCollapseStiffening = 100;
 /// The principal stretch below which the terms of Ogden continue with the slope they have there.
 inline constexpr double kLowestStretch = 0.1;
 /// The exponent beyond which the exponential of Fung continues as a parabola: the solid is 400 times as stiff there.

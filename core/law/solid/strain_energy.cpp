@@ -18,9 +18,10 @@ struct VolumeEnergy {
 
   VolumeEnergy(double log_volume, double square_volume, double j) : value(volume_energy(log_volume, square_volume, j)) {
     const double at = std::max(j, kLowestVolume);
-    const double below = std::min(j - kLowestVolume, 0.0) / kLowestVolume;
-    slope = -log_volume * (1 - below) / at;
-    curvature = log_volume / (at * at);
+    const double below = std::max(1 - j / kLowestVolume, 0.0);
+    const double partly = std::min(below, 1.0);
+    slope = -log_volume * (1 + below + kCollapseStiffening * partly * (below - 0.5 * partly)) / at;
+    curvature = log_volume * (1 + kCollapseStiffening * partly) / (at * at);
     const double u = j - 1;
     if (square_volume >= 0) {
       slope += square_volume * u;

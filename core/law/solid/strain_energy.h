@@ -12,13 +12,13 @@ using GradientVector = Eigen::Matrix<double, 9, 1>;
 using GradientMatrix = Eigen::Matrix<double, 9, 9>;
 
 /// The strain-energy density psi of a material, see StrainEnergyKind, finite for every F, inverted ones too: below
-/// J = kLowestVolume log J continues as the parabola with its value, slope and curvature there, below a stretch of
-/// kLowestStretch the terms of Ogden with the slope by the squared stretch that they have there, and beyond
-/// kLargestExponent the exponential as a parabola. A block compressed along one axis carries more and more until a
-/// tenth of its volume is left. Where the factor of (J - 1)^2 is negative (nu < 0 with most), (J - 1)^2 / (1 + (J -
-/// 1)^2) takes its place: without a bound it would let a solid swell without end; with it psi grows with every dilation
-/// down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis", section 6.4.3,
-/// with (J - 1)^2 instead of (log J)^2.
+/// J = kLowestVolume log J continues as a cubic with its value, slope and curvature there, below J = 0 as a parabola,
+/// below a stretch of kLowestStretch the terms of Ogden with the slope by the squared stretch that they have there, and
+/// beyond kLargestExponent the exponential as a parabola. A block compressed along one axis carries more and more, at
+/// nu = 0 and J = 0 325 E. Where the factor of (J - 1)^2 is negative (nu < 0 with most), (J - 1)^2 / (1 + (J - 1)^2)
+/// takes its place: without a bound it would let a solid swell without end; with it psi grows with every dilation down
+/// to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis", section 6.4.3, with
+/// (J - 1)^2 instead of (log J)^2.
 class StrainEnergy {
  public:
   explicit StrainEnergy(const Material& material) : StrainEnergy(hyperelastic_terms(material)) {}

@@ -19,7 +19,8 @@ import numpy as np
 Solid = namedtuple("Solid", "volume centroid second")
 SIDES = np.array([[1 if c >> axis & 1 else -1 for axis in range(3)] for c in range(8)])
 WARPING = 3
-LOWEST = 0.1  # volume ratio, below which the logarithm goes on as a parabola
+LOWEST = 0.08  # volume ratio, below which the logarithm goes on as a cubic, and below zero as a parabola
+STIFFENING = 100  # growth of its curvature in between
 
 
 def full_brick(h):
@@ -35,7 +36,13 @@ def density(F, young, nu):
     lam, G = lame(young, nu)
     J = F[:, 0] @ np.cross(F[:, 1], F[:, 2])
     d = (J - LOWEST) / LOWEST
-    log_J = np.log(J) if J.real >= LOWEST else np.log(LOWEST) + d - d**2 / 2
+    if J.real >= LOWEST:
+        log_J = np.log(J)
+    elif J.real >= 0:
+        log_J = np.log(LOWEST) + d - d**2 / 2 + STIFFENING / 6 * d**3
+    else:
+        e = J / LOWEST
+        log_J = np.log(LOWEST) - 1.5 - STIFFENING / 6 + (2 + STIFFENING / 2) * e - (1 + STIFFENING) / 2 * e**2
     change = (J - 1) ** 2 if lam >= 0 else (J - 1) ** 2 / (1 + (J - 1) ** 2)
     return G / 2 * (np.sum(F * F) - 3) - G * log_J + lam / 2 * change
 
