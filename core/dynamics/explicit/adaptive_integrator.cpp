@@ -144,9 +144,11 @@ std::optional<Diverged> AdaptiveIntegrator::run(std::span<GroupSteps> groups, do
       const Steps& all = planned[i];
       const long first = all.count * done / chunks;
       const long count = all.count * (done + 1) / chunks - first;
-      const double longer = all.dt / groups[i].steps.dt;
-      const long needed = long(std::ceil(double(count) * longer));
-      chunk[i].steps = {.count = needed, .dt = all.dt * double(count) / double(needed)};
+      chunk[i].steps = {.count = count, .dt = all.dt};
+      if (groups[i].steps.dt < all.dt) {  // as short as they became before
+        chunk[i].steps.count = long(std::ceil(double(count) * all.dt / groups[i].steps.dt));
+        chunk[i].steps.dt = all.dt * double(count) / double(chunk[i].steps.count);
+      }
       chunk[i].elapsed = all.dt * double(first);
     }
     try {
