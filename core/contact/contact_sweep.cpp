@@ -56,10 +56,10 @@ ContactSweep::ContactSweep(Group group, std::vector<GluedPoint> glue)
   }
 }
 
-double ContactSweep::volume_of_flattest() const {
-  double smallest = 1;
-  for (const InversionGuard& one : inversions_) smallest = std::min(smallest, one.volume_of_flattest());
-  return smallest;
+FlattestVolume ContactSweep::flattest() const {
+  FlattestVolume flattest;
+  for (const InversionGuard& one : inversions_) flattest = flatter_of(flattest, one.flattest());
+  return flattest;
 }
 
 void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {

@@ -22,7 +22,7 @@ class ContactSweep {
   int apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt);
 
   /// See InversionGuard; of all bodies.
-  [[nodiscard]] double volume_of_flattest() const;
+  [[nodiscard]] FlattestVolume flattest() const;
 
  private:
   /// A node's contribution to a contact.

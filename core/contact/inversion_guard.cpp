@@ -77,7 +77,7 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
   }
   to_look_.tick();
   found_.clear();
-  volume_of_flattest_ = 1;
+  flattest_ = {};
   const double volume = body.grid.brick_volume();
   const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
   for (const int brick : suspects_) {
@@ -91,7 +91,7 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
       const double deficit = kMinVolume - volume_ratio;
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
       if (corner == InversionRate::kMeanAxes) {
-        volume_of_flattest_ = std::min(volume_of_flattest_, volume_ratio + dt * std::min(rate, 0.0));
+        flattest_ = flatter_of(flattest_, {volume_ratio, volume_ratio + dt * std::min(rate, 0.0)});
       }
       const double recovery = std::min(deficit / kUnfoldSteps, fastest * areas.norm());
       const double min_rate = (deficit > 0 ? recovery : deficit) / dt;

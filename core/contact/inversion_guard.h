@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "core/contact/countdown.h"
@@ -22,6 +23,16 @@ struct InversionRate {
   static constexpr int kMeanAxes = 8;
 };
 
+/// The volume ratio between the mean axes of the flattest brick, now and after a step; 1 if none is nearly flat.
+struct FlattestVolume {
+  double now = 1;
+  double next = 1;
+};
+
+[[nodiscard]] inline FlattestVolume flatter_of(const FlattestVolume& a, const FlattestVolume& b) {
+  return {std::min(a.now, b.now), std::min(a.next, b.next)};
+}
+
 /// The gradient of the limited volume ratio with respect to the brick's corners, 1/m.
 [[nodiscard]] Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& rate);
 
@@ -31,9 +42,8 @@ class InversionGuard {
  public:
   /// The bricks that a step of dt would compress too far; call once per step.
   [[nodiscard]] const std::vector<InversionRate>& find(const Body& body, double dt);
-  /// The smallest volume ratio between the mean axes of a brick after the step of the last find(), at the velocities it
-  /// had; 1 if none is nearly flat.
-  [[nodiscard]] double volume_of_flattest() const { return volume_of_flattest_; }
+  /// For the step of the last find(), at the velocities that it had.
+  [[nodiscard]] const FlattestVolume& flattest() const { return flattest_; }
 
  private:
   void look(const Body& body, double dt);
@@ -42,7 +52,7 @@ class InversionGuard {
   std::vector<int> suspects_;     // bricks
   std::vector<InversionRate> found_;
   Countdown to_look_;
-  double volume_of_flattest_ = 1;
+  FlattestVolume flattest_;
 };
 
 }  // namespace sprung

@@ -38,7 +38,7 @@ class SweptContacts {
   }
 
   /// See InversionGuard; of all bodies.
-  [[nodiscard]] double volume_of_flattest() const { return sweep_.volume_of_flattest(); }
+  [[nodiscard]] FlattestVolume flattest() const { return sweep_.flattest(); }
 
   void count_springs(double seconds) { report_.springs += seconds; }
   [[nodiscard]] StepReport report() const {

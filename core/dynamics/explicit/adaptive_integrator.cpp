@@ -92,12 +92,11 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   double carried = 0;  // m/s, by obstacles
   for (const Obstacle& obstacle : world.obstacles) carried = std::max(carried, obstacle.velocity.norm());
   for (std::vector<std::size_t>& bodies : contact_groups(world, time)) {
-    double step = std::numeric_limits<double>::infinity();
-    double brick = step;
+    double step = stable_step(world, bodies);
+    double brick = std::numeric_limits<double>::infinity();
     double speed = 0;
     for (const std::size_t i : bodies) {
       const Body& body = world.bodies[i];
-      step = std::min(step, stable_step(body));
       brick = std::min(brick, body.grid.brick_size);
       speed = std::max(speed, largest_speed(body));
     }
@@ -110,8 +109,7 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
                                  "the motion diverged; use slower bodies, larger bricks or less gravity",
                                  bodies.front() + 1, speed));
     }
-    const long count = std::max(1L, long(std::ceil(time / step)));
-    groups.push_back({.bodies = std::move(bodies), .steps = {.count = count, .dt = time / double(count)}});
+    groups.push_back({.bodies = std::move(bodies), .steps = equal_steps(time, step)});
   }
   return groups;
 }
@@ -146,8 +144,7 @@ std::optional<Diverged> AdaptiveIntegrator::run(std::span<GroupSteps> groups, do
       const long count = all.count * (done + 1) / chunks - first;
       chunk[i].steps = {.count = count, .dt = all.dt};
       if (groups[i].steps.dt < all.dt) {  // as short as they became before
-        chunk[i].steps.count = long(std::ceil(double(count) * all.dt / groups[i].steps.dt));
-        chunk[i].steps.dt = all.dt * double(count) / double(chunk[i].steps.count);
+        chunk[i].steps = equal_steps(double(count) * all.dt, groups[i].steps.dt);
       }
       chunk[i].elapsed = all.dt * double(first);
     }

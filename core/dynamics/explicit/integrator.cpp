@@ -63,6 +63,17 @@ double stable_step(const World& world, double safety) {
   return step;
 }
 
+double stable_step(const World& world, const std::vector<std::size_t>& bodies) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const std::size_t row : bodies) step = std::min(step, stable_step(world.bodies[row]));
+  return step;
+}
+
+Steps equal_steps(double time, double longest) {
+  const long count = std::max(1L, long(std::ceil(time / longest)));
+  return {.count = count, .dt = time / double(count)};
+}
+
 namespace {
 
 /// One body during a number of steps.
@@ -153,8 +164,10 @@ Eigen::VectorXd inverse_masses_of(const SoftBody& body) {
 }
 
 /// The fastest vibration of a brick that is being flattened grows at least as one over its volume: it is looked at anew
-/// whenever a brick below kFlat has lost a fifth of what it had.
+/// whenever a brick below kFlat is about to lose a fifth of what it had. Below kFlattest the law's stiffness grows no
+/// more.
 constexpr double kFlat = 0.5;
+constexpr double kFlattest = 0.02;
 constexpr double kFlattening = 0.8;
 constexpr double kMaxShortening = 100;  // of a step, at a time: a brick that is flat vibrates that much faster
 
@@ -178,9 +191,9 @@ class GroupStepper {
   void apply_contact(double dt) {
     contacts_.apply(world_, inverse_masses_, elapsed_, dt);
     elapsed_ += dt;
-    const double volume = contacts_.volume_of_flattest();
-    if (!volume_of_flattest_) volume_of_flattest_ = volume;
-    is_stiffer_ = volume < kFlattening * std::min(*volume_of_flattest_, kFlat);
+    const FlattestVolume volume = contacts_.flattest();
+    if (!first_volume_) first_volume_ = std::clamp(volume.now, kFlattest, kFlat);
+    is_stiffer_ = std::max(volume.next, kFlattest) < kFlattening * *first_volume_;
   }
 
   /// Whether bricks have been flattened so much since the first step that it may have become too long.
@@ -210,7 +223,7 @@ class GroupStepper {
   std::vector<std::unique_ptr<BodyStepper>> steppers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
   SweptContacts& contacts_;
-  std::optional<double> volume_of_flattest_;  // at the first step
+  std::optional<double> first_volume_;  // of the flattest brick, before the first step
   bool is_stiffer_ = false;
 };
 
@@ -249,13 +262,6 @@ long verlet(GroupStepper& stepper, double dt, long steps) {
   return step;
 }
 
-/// s; see GroupSteps.
-double stable_step(const World& world, const GroupSteps& group) {
-  double step = std::numeric_limits<double>::infinity();
-  for (const std::size_t row : group.bodies) step = std::min(step, stable_step(world.bodies[row]));
-  return group.share * step;
-}
-
 void advance_group(World& world, Scheme scheme, GroupSteps& group, const ContactStates& states) {
   Steps planned = group.steps;
   Steps all{.count = 0, .dt = planned.dt};
@@ -268,11 +274,9 @@ void advance_group(World& world, Scheme scheme, GroupSteps& group, const Contact
     all.count += taken;
     planned.count -= taken;
     if (planned.count == 0) break;
-    const double longer = planned.dt / stable_step(world, group);
-    if (!(longer > 1)) continue;  // nor where a number is not finite
-    const double left = double(planned.count) * planned.dt;
-    planned.count = long(std::ceil(double(planned.count) * std::min(longer, kMaxShortening)));
-    planned.dt = left / double(planned.count);
+    const double stable = group.share * stable_step(world, group.bodies);
+    if (!(stable < planned.dt)) continue;  // nor where a number is not finite
+    planned = equal_steps(double(planned.count) * planned.dt, std::max(stable, planned.dt / kMaxShortening));
     all.dt = std::min(all.dt, planned.dt);
   }
   group.steps = all;

@@ -22,6 +22,8 @@ class ContactStates;
 /// bodies' current state.
 [[nodiscard]] double stable_step(const World& world, double safety = 0.7);
 [[nodiscard]] double stable_step(const Body& body, double safety = 0.7);
+/// That of some bodies, by their rows.
+[[nodiscard]] double stable_step(const World& world, const std::vector<std::size_t>& bodies);
 
 /// The square of the fastest frequency (1/s^2) of any node of the body: the largest eigenvalue of a single brick with
 /// its own lumped mass, which bounds the assembled one; of solid bricks (Model::kCalibrated) the assembled one itself,
@@ -35,6 +37,9 @@ struct Steps {
   long count = 1;
   double dt = 0;  // s
 };
+
+/// As few as fill `time` (s) in steps no longer than `longest` (s); at least one.
+[[nodiscard]] Steps equal_steps(double time, double longest);
 
 /// Bodies that may come into contact, and the steps they take together.
 struct GroupSteps {

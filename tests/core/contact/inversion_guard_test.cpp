@@ -97,5 +97,21 @@ TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
   EXPECT_GT(smallest_volume_ratio(body), before);
 }
 
+/// A brick flattened to a fifth is at that, and loses what its velocity takes from it; one that rises loses nothing.
+TEST(FlattestVolume, IsThatNowAndAfterTheStep) {
+  constexpr double kStep = 1e-3;  // s
+  World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  Body& body = world.bodies[0];
+  EXPECT_EQ(InversionGuard().flattest().now, 1);
+  body.positions.col(2) *= 0.2;
+  for (const double rate : {-20.0, 20.0}) {  // 1/s, of the height
+    body.velocities.col(2) = rate * body.positions.col(2);
+    InversionGuard guard;
+    static_cast<void>(guard.find(body, kStep));
+    EXPECT_NEAR(guard.flattest().now, 0.2, 1e-12);
+    EXPECT_NEAR(guard.flattest().next, rate < 0 ? 0.2 * (1 + rate * kStep) : 0.2, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace sprung

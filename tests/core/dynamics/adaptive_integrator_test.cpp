@@ -51,5 +51,21 @@ TEST(AdaptiveIntegrator, KeepsThePlannedStepsWhereBricksKeepTheirVolume) {
   EXPECT_EQ(groups[0].steps.dt, planned.dt);
 }
 
+/// Below a fiftieth of their volume bricks become no stiffer: steps chosen there are not chosen again and again.
+TEST(AdaptiveIntegrator, KeepsThePlannedStepsOfBricksThatAreFlatAlready) {
+  World world = world_of_impact(0);
+  SoftBody& cube = world.bodies[0];
+  cube.positions.col(1) *= -0.01;
+  cube.positions.col(1).array() += 0.01;
+  const Steps planned = choose_steps(world, 1e-3)[0].steps;
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
+  int repeated = 0;
+  const std::vector<GroupSteps> groups = motion.advance_frame(
+      0, 1e-3, [](double) {}, [&](const std::string&) { ++repeated; });
+  EXPECT_EQ(repeated, 0);
+  EXPECT_GT(planned.count, 10);
+  EXPECT_EQ(groups[0].steps.count, planned.count);
+}
+
 }  // namespace
 }  // namespace sprung
