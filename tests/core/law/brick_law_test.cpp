@@ -112,6 +112,12 @@ TEST(BrickLaw, PaperSpringsNeedARatioThatLetsTheirEdgesPull) {
   }
 }
 
+/// As far as its strain energy grows with every dilation, see StrainEnergy.
+TEST(BrickLaw, CalibratedTakesEveryRatioAtWhichItDoesNotSwell) {
+  EXPECT_NO_THROW((void)brick_law(Model::kCalibrated, test_material(-0.5), kSide));
+  EXPECT_THROW((void)brick_law(Model::kCalibrated, test_material(-0.501), kSide), Error);
+}
+
 /// The correction's share of each corner's force in a uniform stretch along x equals the paper's 2 F_perp, with
 /// F_perp = -F (4 nu - 1) / 16 for the elongation force F on a face.
 TEST(BrickLaw, CorrectionIsThePapersPerpendicularForce) {

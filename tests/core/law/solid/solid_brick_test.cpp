@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/support/bodies.h"
@@ -107,11 +108,30 @@ TEST(SolidBrick, AnswersUniformStrainAsItsMaterial) {
   }
 }
 
+TEST(SolidBrick, OfEveryLawAnswersUniformStrainAsItsMaterial) {
+  Random random(7);
+  for (const StrainEnergyLaw& law : test::kStrainEnergyLaws) {
+    const Material material = test::material_of_law(law, 0.3);
+    const StrainEnergy psi(material);
+    for (int trial = 0; trial < 10; ++trial) {
+      const double volume = 0.4 * kSide * kSide * kSide;
+      const SolidBrick brick(material, kSide, 0.4, random_moments(random));
+      const Mat3 gradient = Mat3::Identity() + random_matrix(0.4, random);
+      const BrickVector x = deformed(gradient, kSide);
+      EXPECT_NEAR(brick.energy(x) / (volume * psi.energy(gradient)), 1, 1e-10) << law_text(law);
+      const Mat3 virial = -brick.forces(x).reshaped(3, 8) * rest_corners(kSide).reshaped(3, 8).transpose();
+      EXPECT_LT((virial - volume * psi.stress(gradient)).norm(), 1e-10 * virial.norm()) << law_text(law);
+    }
+  }
+}
+
 TEST(SolidBrick, HasForcesVolumeRatesAndHessianThatAreDerivatives) {
   Random random(3);
+  const StrainEnergyLaw fung{.kind = StrainEnergyKind::kFung, .fung_exponent = 0.4};
   for (const double amount : {0.1, 0.4, 1.0}) {
-    for (const double poisson : {0.0, 0.3, 0.49}) {
-      const SolidBrick brick(test::test_material(poisson), kSide, 0.4, random_moments(random));
+    for (const Material& material : {test::test_material(0), test::test_material(0.3), test::test_material(0.49),
+                                     test::material_of_law(fung, 0.3)}) {
+      const SolidBrick brick(material, kSide, 0.4, random_moments(random));
       const BrickVector x = shaken(amount, kSide, random);
       BrickVector slope;
       BrickVector volume_slope;
@@ -185,6 +205,20 @@ TEST(SolidBrick, HasADefiniteHessianToo) {
   const SolidBrick brick(test::test_material(0.3), kSide, 1, {});
   const BrickVector x = deformed(1.1 * Mat3::Identity(), kSide);
   EXPECT_LT((brick.hessian(x, true) - brick.hessian(x, false)).norm(), 1e-12 * brick.hessian(x, false).norm());
+}
+
+/// A plate's points are spread across it as t^2 / 12.
+TEST(SolidBrick, TakesSolidsForNoThinnerThanATinyPlateNorFartherFromTheMiddleThanItsCorners) {
+  const Mat3 turn = Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const auto& [thickness, taken] : {std::pair(0.5, 0.5), {0.02001, 0.02001}, {0.01999, 0.02}, {0.001, 0.02}}) {
+    const auto plate = [&](double t) -> Mat3 {
+      return turn * (Vec3(t * t, 1, 1) / 12).asDiagonal() * turn.transpose();
+    };
+    const Mat3 bounded = bounded_moments({.covariance = plate(thickness)}).covariance;
+    EXPECT_LT((bounded - plate(taken)).norm(), 1e-9) << thickness;
+  }
+  const Vec3 centroid = bounded_moments({.centroid = Vec3(0.4499, -0.7, 0.7)}).centroid;
+  EXPECT_LT((centroid - Vec3(0.4499, -0.45, 0.45)).norm(), 1e-12);
 }
 
 TEST(SolidBrick, IsStableHoweverThinARodItHolds) {

@@ -155,6 +155,39 @@ TEST(StrainEnergy, OfFungStiffensWithoutChangingHowABarThins) {
   }
 }
 
+/// Up to 400 times the stiffness at rest, to the exponent 6; from there on its tangent modulus by W grows no more.
+TEST(StrainEnergy, OfFungIsExponentialUpToFourHundredTimesTheStiffness) {
+  constexpr double kExponent = 0.4;
+  const Material material = material_of_law({.kind = StrainEnergyKind::kFung, .fung_exponent = kExponent}, 0.3);
+  const StrainEnergy plain(material_of_law({}, 0.3));
+  const StrainEnergy fung(material);
+  const double per_energy = 2 * kExponent / material.shear_modulus();
+  for (double stretch = 1.5; stretch < 4.5; stretch += 0.1) {
+    const Mat3 gradient = Vec3(stretch, 1, 1).asDiagonal();
+    const double power = per_energy * plain.energy(gradient);
+    const double beyond = power - 6;
+    const double expected = beyond < 0 ? std::exp(power) : 403.428793 * (1 + beyond + beyond * beyond / 2);
+    EXPECT_NEAR((1 + per_energy * fung.energy(gradient)) / expected, 1, 1e-8) << stretch;
+  }
+}
+
+/// With a negative exponent, which makes most of small stretches: down to 1/10 as published, then a linear spring.
+TEST(StrainEnergy, OfOgdenIsThePublishedLawDownToATenthOfTheLength) {
+  const StrainEnergyLaw law{.kind = StrainEnergyKind::kOgden, .ogden_exponents = {5, -2}, .ogden_shares = {0.9, 0.1}};
+  const Material material = material_of_law(law, 0);  // lambda = 0: only log J stands besides the stretches
+  const StrainEnergy psi(material);
+  const double shear = material.shear_modulus();
+  const auto pull = [&](double s) {
+    return 2 * shear * (0.9 / 5 * std::pow(s, 4) - 0.1 / 2 * std::pow(s, -3) - (0.9 / 5 - 0.1 / 2) / s);
+  };
+  for (const double s : {0.5, 0.1005, 0.1})
+    EXPECT_NEAR(psi.principal_stress(Vec3(s, 2, 2))[0] / pull(s), 1, 1e-12) << s;
+  const auto spring = [&](double s) {
+    return psi.principal_stress(Vec3(s, 2, 2))[0] + 2 * shear * (0.9 / 5 - 0.1 / 2) / s;
+  };
+  for (const double s : {0.09, 0.05, 0.03}) EXPECT_NEAR(spring(s) / spring(0.1), 10 * s, 1e-12) << s;
+}
+
 TEST(StrainEnergy, IsFiniteForEveryGradient) {
   for (const StrainEnergyLaw& law : test::kStrainEnergyLaws) {
     const StrainEnergy psi(material_of_law(law, 0.45));
@@ -210,6 +243,22 @@ TEST(StrainEnergyLaw, TellsWhatIsWrongWithItsParameters) {
   EXPECT_NE(fault({.kind = StrainEnergyKind::kOgden, .ogden_exponents = {2, -2}}).find("ogden_shares has 0"),
             std::string::npos);
   EXPECT_NE(fault({.kind = StrainEnergyKind::kOgden, .ogden_exponents = {-2}}).find("pressed flat"), std::string::npos);
+}
+
+TEST(StrainEnergyLaw, TakesParametersWithinTheirRangesOnly) {
+  const auto share = [](double c) { return find_fault({.kind = StrainEnergyKind::kMooneyRivlin, .mooney_share = c}); };
+  const auto fung = [](double b) { return find_fault({.kind = StrainEnergyKind::kFung, .fung_exponent = b}); };
+  const auto ogden = [](double alpha, double sum) {
+    return find_fault({.kind = StrainEnergyKind::kOgden, .ogden_exponents = {alpha}, .ogden_shares = {sum}});
+  };
+  for (const double c : {0.0, 1.0}) EXPECT_EQ(share(c), "") << c;
+  for (const double c : {-0.001, 1.001}) EXPECT_NE(share(c), "") << c;
+  for (const double b : {1e-6, 100.0}) EXPECT_EQ(fung(b), "") << b;
+  for (const double b : {0.0, 0.999e-6, 100.1}) EXPECT_NE(fung(b), "") << b;
+  for (const double alpha : {0.01, 100.0}) EXPECT_EQ(ogden(alpha, 1), "") << alpha;
+  for (const double alpha : {0.00999, 100.1, -100.1}) EXPECT_NE(ogden(alpha, 1), "") << alpha;
+  for (const double sum : {1 - 0.999e-6, 1 + 0.999e-6}) EXPECT_EQ(ogden(2, sum), "") << sum;
+  for (const double sum : {1 - 1.001e-6, 1 + 1.001e-6}) EXPECT_NE(ogden(2, sum), "") << sum;
 }
 
 }  // namespace
