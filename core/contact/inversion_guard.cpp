@@ -12,8 +12,8 @@
 namespace sprung {
 namespace {
 
-constexpr int kStepsBetweenLooks = 8;      // at most
-constexpr double kMoveBetweenLooks = 0.5;  // of a brick: what meets an obstacle may lose as much in a few steps
+constexpr int kStepsBetweenLooks = 8;       // at most
+constexpr double kMoveBetweenLooks = 0.25;  // of a brick: what meets an obstacle may lose as much in a few steps
 constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kUnfoldSteps = 20;  // a brick found too flat or inverted recovers within about this many steps
