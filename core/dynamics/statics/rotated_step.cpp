@@ -2,14 +2,18 @@
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sprung {
 namespace {
 
-constexpr double kAnchor = 1e-6;  // weight of a node's straight way, in bricks: holds what no support holds
+constexpr double kAnchor = 1e-6;     // weight of a node's straight way, in bricks: holds what no support holds
+constexpr double kMaxFlops = 1e9;    // of a factorization, half a second; large compact bodies would take minutes
+constexpr double kTolerance = 1e-5;  // of the way between straight and turned
 
 BrickColumns centred(const BrickColumns& corners) { return corners.colwise() - corners.rowwise().mean(); }
 
@@ -31,8 +35,38 @@ Points points_of(const Eigen::VectorXd& u) { return Eigen::Map<const Points>(u.d
 
 }  // namespace
 
-/// A factorized matrix.
-class RotatedStep::System : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {};
+/// Factorized, or solved by conjugate gradients where that takes too long.
+class RotatedStep::System {
+ public:
+  using Sparse = Eigen::SparseMatrix<double>;
+
+  /// `matrix`: its lower half.
+  explicit System(Sparse matrix) : matrix_(std::move(matrix)) {
+    factors_.analyzePattern(matrix_);
+    is_factorized_ = factors_.cholmod().fl < kMaxFlops;
+    if (is_factorized_) {
+      factors_.factorize(matrix_);
+    } else {
+      gradients_.setTolerance(kTolerance);
+      gradients_.compute(matrix_);
+    }
+  }
+
+  /// matrix^-1 right - start; empty if the matrix is singular to rounding.
+  [[nodiscard]] Eigen::VectorXd change(const Eigen::VectorXd& start, const Eigen::VectorXd& right) const {
+    const Eigen::VectorXd residual = right - matrix_.selfadjointView<Eigen::Lower>() * start;
+    Eigen::VectorXd change = is_factorized_ ? Eigen::VectorXd(factors_.solve(residual)) : gradients_.solve(residual);
+    const Eigen::ComputationInfo info = is_factorized_ ? factors_.info() : gradients_.info();
+    if (info != Eigen::Success) change.resize(0);
+    return change;
+  }
+
+ private:
+  Sparse matrix_;
+  bool is_factorized_ = false;
+  Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> factors_;
+  Eigen::ConjugateGradient<Sparse, Eigen::Lower, Eigen::IncompleteCholesky<double>> gradients_;
+};
 
 RotatedStep::RotatedStep(const Body& body, const Supports& supports) : body_(body), supports_(supports) {}
 
@@ -74,12 +108,13 @@ Points RotatedStep::displaced(const Points& positions, const Eigen::VectorXd& u)
   factorize();
   Points after = straight;
   for (int axis = 0; axis < 3; ++axis) {
-    if (systems_[axis]->info() != Eigen::Success) return {};
     Eigen::VectorXd right = sums.col(axis);
     for (int node = 0; node < body_.node_count(); ++node) {
       if (supports_.fixed[3 * std::size_t(node) + axis]) right[node] = straight(node, axis);
     }
-    after.col(axis) = systems_[axis]->solve(right);
+    const Eigen::VectorXd change = systems_[axis]->change(straight.col(axis), right);
+    if (change.size() == 0) return {};
+    after.col(axis) += change;
   }
   for (int node = 0; node < body_.node_count(); ++node) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -117,11 +152,9 @@ std::shared_ptr<RotatedStep::System> RotatedStep::factorized(int axis) const {
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(body_.node_count(), body_.node_count());
+  System::Sparse matrix(body_.node_count(), body_.node_count());
   matrix.setFromTriplets(entries.begin(), entries.end());
-  auto system = std::make_shared<System>();
-  system->compute(matrix);
-  return system;
+  return std::make_shared<System>(std::move(matrix));
 }
 
 }  // namespace sprung

@@ -180,20 +180,19 @@ class Equilibrium {
     // itself); a full Newton step is then right.
     const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_)) + energy_rounding(body_);
     for (double share = 1; share > 1e-8; share /= 2) {
-      if (energy_after(before, share * direction, share * rotation) <= energy - 1e-4 * share * slope + noise) {
-        return share;
-      }
+      const double enough = energy - 1e-4 * share * slope + noise;
+      if (energy_after(before, share * direction, share * rotation, enough) <= enough) return share;
     }
     body_.positions = before;
     return 0;
   }
 
-  /// Moves the body from there by a displacement, along a straight line or, if that costs less energy, by finite
-  /// rotations. `rotation`: the largest in it, radians. Returns the potential.
-  double energy_after(const Points& from, const Eigen::VectorXd& way, double rotation) {
+  /// Moves the body from there by a displacement, along a straight line or, if that does not bring its potential down
+  /// to what is enough, by finite rotations. `rotation`: the largest in it, radians. Returns the potential.
+  double energy_after(const Points& from, const Eigen::VectorXd& way, double rotation, double enough) {
     move_along(from, way);
     const double straight = potential();
-    if (!(rotation > kSmallRotation)) return straight;
+    if (straight <= enough || !(rotation > kSmallRotation)) return straight;
     const Points turned = rotated_.displaced(from, way);
     if (turned.rows() == 0) return straight;
     body_.positions = turned;
