@@ -6,7 +6,6 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace sprung {
 namespace {
@@ -41,7 +40,7 @@ class RotatedStep::System {
   using Sparse = Eigen::SparseMatrix<double>;
 
   /// `matrix`: its lower half.
-  explicit System(Sparse matrix) : matrix_(std::move(matrix)) {
+  explicit System(const Sparse& matrix) : matrix_(matrix) {
     factors_.analyzePattern(matrix_);
     is_factorized_ = factors_.cholmod().fl < kMaxFlops;
     if (is_factorized_) {
@@ -142,6 +141,7 @@ std::shared_ptr<RotatedStep::System> RotatedStep::factorized(int axis) const {
     if (is_same) return systems_[other];
   }
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(std::size_t(body_.node_count()) + 36 * body_.grid.nodes.size());
   for (int node = 0; node < body_.node_count(); ++node) entries.emplace_back(node, node, is_held(node) ? 1 : kAnchor);
   for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
     const double weight = body_.stiffness_scale[brick];
@@ -154,7 +154,7 @@ std::shared_ptr<RotatedStep::System> RotatedStep::factorized(int axis) const {
   }
   System::Sparse matrix(body_.node_count(), body_.node_count());
   matrix.setFromTriplets(entries.begin(), entries.end());
-  return std::make_shared<System>(std::move(matrix));
+  return std::make_shared<System>(matrix);
 }
 
 }  // namespace sprung
