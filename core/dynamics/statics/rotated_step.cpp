@@ -10,7 +10,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kAnchor = 1e-6;     // weight of a node's straight way, in bricks: holds what no support holds
+constexpr double kAnchor = 1e-6;     // of a brick's weight, for the straight way of a node: holds what no support holds
 constexpr double kMaxFlops = 1e9;    // of a factorization, half a second; large compact bodies would take minutes
 constexpr double kTolerance = 1e-5;  // of the way between straight and turned
 
@@ -51,13 +51,12 @@ class RotatedStep::System {
     }
   }
 
-  /// matrix^-1 right - start; empty if the matrix is singular to rounding.
-  [[nodiscard]] Eigen::VectorXd change(const Eigen::VectorXd& start, const Eigen::VectorXd& right) const {
-    const Eigen::VectorXd residual = right - matrix_.selfadjointView<Eigen::Lower>() * start;
-    Eigen::VectorXd change = is_factorized_ ? Eigen::VectorXd(factors_.solve(residual)) : gradients_.solve(residual);
+  /// Empty if the matrix is singular to rounding.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
+    Eigen::VectorXd found = is_factorized_ ? Eigen::VectorXd(factors_.solve(right)) : gradients_.solve(right);
     const Eigen::ComputationInfo info = is_factorized_ ? factors_.info() : gradients_.info();
-    if (info != Eigen::Success) change.resize(0);
-    return change;
+    if (info != Eigen::Success) found.resize(0);
+    return found;
   }
 
  private:
@@ -81,8 +80,7 @@ double RotatedStep::largest_rotation(const Points& positions, const Eigen::Vecto
 
 Points RotatedStep::displaced(const Points& positions, const Eigen::VectorXd& u) {
   const Points moved = points_of(u);
-  const Points straight = positions + moved;
-  Points sums = kAnchor * straight;
+  Points right = Points::Zero(body_.node_count(), 3);  // how far the straight way leaves bricks from their shapes
   for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
     const std::array<int, 8>& nodes = body_.grid.nodes[brick];
     const BrickColumns x = centred(columns_of(nodes, positions));
@@ -90,48 +88,32 @@ Points RotatedStep::displaced(const Points& positions, const Eigen::VectorXd& u)
     const Vec3 rotation = rotation_in(x, change);
     BrickColumns shape = x + change;
     for (int c = 0; c < 8; ++c) shape.col(c) -= rotation.cross(x.col(c));
-    shape = (body_.stiffness_scale[brick] * matrix_of(rotation) * shape).eval();
-    for (int c = 0; c < 8; ++c) sums.row(nodes[c]) += shape.col(c).transpose();
+    const BrickColumns left = body_.stiffness_scale[brick] * (matrix_of(rotation) * shape - x - change);
+    for (int c = 0; c < 8; ++c) right.row(nodes[c]) += left.col(c).transpose();
   }
-  // What supports hold stays where the straight way takes it, and acts on its neighbours.
+  for (Eigen::Index i = 0; i < right.size(); ++i) {
+    if (supports_.fixed[std::size_t(i)]) right.data()[i] = 0;
+  }
+  prepare();
+  Points after = positions + moved;
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t brick = 0; brick < body_.grid.nodes.size(); ++brick) {
-      const std::array<int, 8>& nodes = body_.grid.nodes[brick];
-      double held = 0;
-      for (const int node : nodes) {
-        if (supports_.fixed[3 * std::size_t(node) + axis]) held += straight(node, axis);
-      }
-      for (const int node : nodes) sums(node, axis) += body_.stiffness_scale[brick] * held / 8;
-    }
-  }
-  factorize();
-  Points after = straight;
-  for (int axis = 0; axis < 3; ++axis) {
-    Eigen::VectorXd right = sums.col(axis);
-    for (int node = 0; node < body_.node_count(); ++node) {
-      if (supports_.fixed[3 * std::size_t(node) + axis]) right[node] = straight(node, axis);
-    }
-    const Eigen::VectorXd change = systems_[axis]->change(straight.col(axis), right);
-    if (change.size() == 0) return {};
-    after.col(axis) += change;
-  }
-  for (int node = 0; node < body_.node_count(); ++node) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (supports_.fixed[3 * std::size_t(node) + axis]) after(node, axis) = straight(node, axis);
-    }
+    const Eigen::VectorXd further = systems_[axis]->solve(right.col(axis));
+    if (further.size() == 0) return {};
+    after.col(axis) += further;
   }
   return after;
 }
 
-void RotatedStep::factorize() {
+void RotatedStep::prepare() {
   if (held_ == supports_.fixed) return;
   held_ = supports_.fixed;
   systems_ = {};
-  for (int axis = 0; axis < 3; ++axis) systems_[axis] = factorized(axis);
+  for (int axis = 0; axis < 3; ++axis) systems_[axis] = system_along(axis);
 }
 
-/// Of sum over bricks of w |y - mean(y) - shape|^2, over two, with rows of held nodes like those of the identity.
-std::shared_ptr<RotatedStep::System> RotatedStep::factorized(int axis) const {
+/// The derivative of sum over bricks of w |y - mean(y) - shape|^2, over two, by y, with rows of held nodes like those
+/// of the identity.
+std::shared_ptr<RotatedStep::System> RotatedStep::system_along(int axis) const {
   const auto is_held = [&](int node) { return supports_.fixed[3 * std::size_t(node) + axis]; };
   for (int other = 0; other < axis; ++other) {
     bool is_same = systems_[other] != nullptr;

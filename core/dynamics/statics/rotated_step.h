@@ -24,13 +24,13 @@ class RotatedStep {
   /// Radians: the largest rotation of a brick in a displacement u (3 m, m) from `positions` (m x 3, m).
   [[nodiscard]] double largest_rotation(const Points& positions, const Eigen::VectorXd& u) const;
   /// The nodes after it. They differ from positions + u by terms of second order in u, and not at supports. Empty if
-  /// the system is singular to rounding.
+  /// their system is singular to rounding.
   [[nodiscard]] Points displaced(const Points& positions, const Eigen::VectorXd& u);
 
  private:
   class System;
-  void factorize();
-  [[nodiscard]] std::shared_ptr<System> factorized(int axis) const;
+  void prepare();
+  [[nodiscard]] std::shared_ptr<System> system_along(int axis) const;
 
   const Body& body_;
   const Supports& supports_;
